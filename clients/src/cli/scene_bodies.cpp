@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/scene_bodies.hpp"
+
+#include "cli/exit_code.hpp"
+
+#include <stoss/idl/scene_file.hpp>
+#include <stoss/translate/basics.hpp>
+
+#include <variant>
+
+namespace stoss::client::cli {
+
+translate::SceneBodies scene_bodies(const std::string& path) {
+  auto loaded = idl::load_scene(path);
+  if (const auto* error = std::get_if<idl::SceneError>(&loaded)) {
+    throw RefusedError(
+        {.code = translate::code_of(idl::wire_value(error->code)).value_or(engine::Code::Internal),
+         .field = {},
+         .reason = error->message()});
+  }
+  return value_or_refuse(translate::bodies_of(std::get<Scene>(loaded)));
+}
+
+}  // namespace stoss::client::cli

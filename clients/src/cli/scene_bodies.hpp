@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stoss/translate/scene.hpp>
+
+#include <string>
+
+namespace stoss::client::cli {
+
+/// Reads a scene file. Throws RefusedError, which names the file, the field and the body.
+[[nodiscard]] translate::SceneBodies scene_bodies(const std::string& path);
+
+}  // namespace stoss::client::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// `stoss simulate`: a scene run offline, by the exact engine or by the stepped baseline.
+
+#include <stoss/engine/types.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace stoss::client::cli {
+
+struct SimulateOptions {
+  std::string scene;
+  std::optional<engine::Instant> until;   ///< as a duration from the scene's start
+  std::optional<double> tick_rate;        ///< Hz
+  std::optional<std::string> collisions;  ///< where the log goes
+  std::optional<std::string> states;      ///< where the final states go
+  engine::Arithmetic arithmetic = engine::Arithmetic::Double;
+  engine::BroadPhaseKind broad_phase = engine::BroadPhaseKind::Neighbours;
+  std::optional<double> step;  ///< s; set: the stepped baseline
+  std::uint64_t max_collisions = ~std::uint64_t{0};
+  bool stats = false;
+  bool hash = false;
+  bool json = false;
+};
+
+/// Runs a scene. Throws RefusedError (a scene or body that is refused), UsageError, or
+/// std::system_error (output that cannot be written).
+void simulate(const SimulateOptions& options);
+
+}  // namespace stoss::client::cli

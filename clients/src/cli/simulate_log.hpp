@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The collision log of an offline run: written, digested, or only counted.
+
+#include "cli/log_file.hpp"
+
+#include <stoss/engine/types.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace stoss::client::cli {
+
+/// Takes collisions from the engine. Writes lines when there is a path, digests the same lines when
+/// that is asked for.
+class CollisionLog : public engine::CollisionSink {
+ public:
+  CollisionLog(const std::optional<std::string>& path, bool digest);
+
+  void on_collision(const engine::Collision& collision) override;
+  void count_events(std::uint64_t events) { events_ += events; }
+  void flush_if_full();
+  /// Everything is out. Throws std::system_error.
+  void finish();
+
+  [[nodiscard]] std::uint64_t collisions() const { return collisions_; }
+  [[nodiscard]] std::uint64_t regularised() const { return regularised_; }
+  [[nodiscard]] std::uint64_t order_dependent() const { return order_dependent_; }
+  [[nodiscard]] std::uint64_t events() const { return events_; }
+  /// FNV-1a (64 bits) of the log's bytes.
+  [[nodiscard]] std::uint64_t digest() const { return digest_; }
+
+ private:
+  void digest_from(const std::string& text, std::size_t first);
+
+  std::optional<LogFile> file_;
+  bool digesting_;
+  std::string line_;
+  std::uint64_t digest_;
+  std::uint64_t collisions_ = 0;
+  std::uint64_t regularised_ = 0;
+  std::uint64_t order_dependent_ = 0;
+  std::uint64_t events_ = 0;
+};
+
+}  // namespace stoss::client::cli

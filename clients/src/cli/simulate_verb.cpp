@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// simulate: from the command line to SimulateOptions.
+
+#include "cli/common.hpp"
+#include "cli/simulate.hpp"
+
+#include <stoss/translate/basics.hpp>
+
+#include <cmath>
+
+namespace stoss::client::cli {
+namespace {
+
+/// The arithmetics that this program holds. A wider one is added here and nowhere else.
+constexpr engine::Arithmetic kArithmetics[] = {
+    engine::Arithmetic::Float, engine::Arithmetic::Double, engine::Arithmetic::LongDouble};
+
+struct SimulateTexts {
+  std::string scene;
+  std::string until;
+  std::string tick_rate;
+  std::string collisions;
+  std::string states;
+  std::string scalar = "double";
+  std::string broad_phase = "neighbours";
+  std::string method = "exact";
+  std::string step;
+  std::string max_collisions;
+  bool stats = false;
+  bool hash = false;
+};
+
+engine::Arithmetic arithmetic_named(const std::string& name) {
+  std::string known;
+  for (const engine::Arithmetic arithmetic : kArithmetics) {
+    if (name == translate::name_of(arithmetic)) return arithmetic;
+    known += (known.empty() ? "" : ", ") + std::string(translate::name_of(arithmetic));
+  }
+  throw UsageError("--scalar: \"" + name + "\" is not one of " + known);
+}
+
+engine::BroadPhaseKind broad_phase_named(const std::string& name) {
+  const auto kind = translate::broad_phase_of(name);
+  if (!kind) throw UsageError("--broad-phase: must be neighbours or all-pairs");
+  return *kind;
+}
+
+double positive(const std::string& option, const std::string& text) {
+  const double value = number_of(option, text);
+  if (!(value > 0) || std::isinf(value)) {
+    throw UsageError(option + ": must be above 0 and finite");
+  }
+  return value;
+}
+
+engine::Instant duration(const std::string& option, const std::string& text) {
+  const engine::Instant value = instant_of(option, text);
+  if (value < engine::Instant{}) throw UsageError(option + ": must not be negative");
+  return value;
+}
+
+void read_method(const SimulateTexts& texts, SimulateOptions& options) {
+  if (texts.method != "exact" && texts.method != "fixed-step") {
+    throw UsageError("--method: must be exact or fixed-step");
+  }
+  const bool stepped = texts.method == "fixed-step";
+  if (stepped && texts.step.empty()) throw UsageError("--method fixed-step needs --step");
+  if (!stepped && !texts.step.empty()) throw UsageError("--step is for --method fixed-step");
+  if (stepped) options.step = positive("--step", texts.step);
+}
+
+SimulateOptions options_of(const SimulateTexts& texts, bool json) {
+  SimulateOptions options;
+  options.scene = texts.scene;
+  if (!texts.until.empty()) options.until = duration("--until", texts.until);
+  if (!texts.tick_rate.empty()) options.tick_rate = positive("--tick-rate", texts.tick_rate);
+  if (!texts.collisions.empty()) options.collisions = texts.collisions;
+  if (!texts.states.empty()) options.states = texts.states;
+  options.arithmetic = arithmetic_named(texts.scalar);
+  options.broad_phase = broad_phase_named(texts.broad_phase);
+  if (!texts.max_collisions.empty()) {
+    options.max_collisions = count_of("--max-collisions", texts.max_collisions);
+  }
+  options.stats = texts.stats;
+  options.hash = texts.hash;
+  options.json = json;
+  read_method(texts, options);
+  return options;
+}
+
+}  // namespace
+
+void add_simulate_verb(CLI::App& app, Invocation& invocation) {
+  auto texts = std::make_shared<SimulateTexts>();
+  CLI::App* verb =
+      add_verb(app,
+               "simulate",
+               "Run a scene offline with the same engine, as fast as it goes",
+               "stoss simulate clients/scenes/pi-2.json --until 20 --collisions - --stats");
+  verb->add_option("SCENE", texts->scene, "A .json, .textproto or .binpb file")->required();
+  verb->add_option("--until", texts->until, "Simulated seconds from the scene's start");
+  verb->add_option("--tick-rate",
+                   texts->tick_rate,
+                   "Advance in ticks of 1/HZ; changes no byte of output (default: one leap)");
+  verb->add_option("--collisions",
+                   texts->collisions,
+                   "Write the collisions as JSON Lines to this file; -: standard output");
+  verb->add_option(
+      "--states", texts->states, "Write the final states of all disks as JSON Lines to this file");
+  verb->add_option("--scalar", texts->scalar, "Arithmetic: float, double or long-double")
+      ->capture_default_str();
+  verb->add_option(
+          "--broad-phase", texts->broad_phase, "neighbours or all-pairs; changes no byte of output")
+      ->capture_default_str();
+  verb->add_option(
+          "--method", texts->method, "exact, or fixed-step: the textbook baseline to compare with")
+      ->capture_default_str();
+  verb->add_option("--step", texts->step, "Time step of fixed-step [s]");
+  verb->add_option("--max-collisions", texts->max_collisions, "Stop right after so many");
+  verb->add_flag("--stats", texts->stats, "A JSON object of statistics on standard error");
+  verb->add_flag(
+      "--hash",
+      texts->hash,
+      "Print a digest (FNV-1a, 64 bits) of the collision log's bytes and the state hash");
+  verb->callback([&invocation, texts] {
+    invocation.action = [&global = invocation.global, texts] {
+      simulate(options_of(*texts, global.json));
+    };
+  });
+}
+
+}  // namespace stoss::client::cli

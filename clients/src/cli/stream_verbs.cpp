@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// states, collisions
+
+#include "cli/common.hpp"
+#include "cli/table.hpp"
+
+#include <stoss/client/decimal.hpp>
+#include <stoss/client/feeds.hpp>
+#include <stoss/client/json.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace stoss::client::cli {
+namespace {
+
+constexpr Milliseconds kLook{100};
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t limit_of(const std::string& option, const std::string& text) {
+  return text.empty() ? kNoLimit : count_of(option, text);
+}
+
+struct StatesOptions {
+  std::vector<std::string> ids;
+  std::string count;
+  std::string head;
+};
+
+engine::BodyState state_of(const FrameBody& body, const engine::Instant& at) {
+  engine::BodyState state;
+  state.id = body.id;
+  state.instant = at;
+  state.position = body.position;
+  state.velocity = body.velocity;
+  state.angle = body.angle;
+  state.spin = body.spin;
+  return state;
+}
+
+/// Radii do not travel in frames; the scene has them.
+class Radii {
+ public:
+  explicit Radii(const Session& session) : feed_(session) {}
+  double operator()(engine::Id id) {
+    auto found = find(id);
+    if (found == disks_.end() || found->id != id) {
+      refresh();
+      found = find(id);
+    }
+    return found == disks_.end() || found->id != id ? 0 : found->radius;
+  }
+
+ private:
+  using Disks = std::vector<SceneImage::DiskShape>;
+
+  Disks::const_iterator find(engine::Id id) const {
+    return std::lower_bound(
+        disks_.begin(), disks_.end(), id, [](const SceneImage::DiskShape& disk, engine::Id wanted) {
+          return disk.id < wanted;
+        });
+  }
+
+  void refresh() {
+    const Milliseconds patience = disks_.empty() ? Milliseconds{1000} : Milliseconds{0};
+    std::optional<SceneImage> scene = feed_.next(patience);
+    if (!scene) return;
+    disks_ = std::move(scene->disks);
+    std::sort(
+        disks_.begin(), disks_.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  }
+
+  SceneFeed feed_;
+  Disks disks_;
+};
+
+std::string frame_json(const Frame& frame, std::size_t head, Radii& radii) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(head, frame.bodies.size()); ++i) {
+    engine::BodyState state = state_of(frame.bodies[i], frame.at);
+    state.radius = radii(state.id);
+    append_json(out, state);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string frame_text(const Frame& frame, std::size_t head) {
+  Table table({"id", "x", "y", "vx", "vy"});
+  for (std::size_t i = 0; i < std::min(head, frame.bodies.size()); ++i) {
+    const FrameBody& body = frame.bodies[i];
+    table.add({std::to_string(body.id),
+               format_number(body.position.x()),
+               format_number(body.position.y()),
+               format_number(body.velocity.x()),
+               format_number(body.velocity.y())});
+  }
+  return "t = " + format_instant(frame.at) + " s, tick " + std::to_string(frame.tick) + ", " +
+         std::to_string(frame.bodies.size()) + " disks\n" + table.text();
+}
+
+/// The world itself may go on in silence (paused), so silence is not the end of a stream; but a
+/// daemon that has gone is.
+void check_alive(Session& session) {
+  static_cast<void>(value_or_throw(session.ask(Query::status())));
+}
+
+void stream_frames(const GlobalOptions& global, const StatesOptions& options) {
+  const std::uint64_t count = limit_of("--count", options.count);
+  const std::uint64_t head = limit_of("--head", options.head);
+  const auto session = connect(global);
+  FrameFeed feed(*session);
+  Radii radii(*session);
+  auto heard = std::chrono::steady_clock::now();
+  for (std::uint64_t frames = 0; frames < count && !interrupted();) {
+    if (const std::optional<Frame> frame = feed.next(kLook)) {
+      print(global.json ? frame_json(*frame, head, radii) : frame_text(*frame, head));
+      heard = std::chrono::steady_clock::now();
+      ++frames;
+    } else if (std::chrono::steady_clock::now() - heard > session->timeout()) {
+      check_alive(*session);
+      heard = std::chrono::steady_clock::now();
+    }
+  }
+}
+
+std::string body_line(const BodyUpdate& update, bool json) {
+  const engine::BodyState& state = update.state;
+  if (json) {
+    std::string out;
+    append_json(out, state);
+    return out + '\n';
+  }
+  return "t " + format_instant(state.instant) + "  id " + std::to_string(state.id) + "  x " +
+         format_number(state.position.x()) + "  y " + format_number(state.position.y()) + "  vx " +
+         format_number(state.velocity.x()) + "  vy " + format_number(state.velocity.y()) + '\n';
+}
+
+void stream_bodies(const GlobalOptions& global, const StatesOptions& options) {
+  const std::uint64_t count = limit_of("--count", options.count);
+  const std::vector<engine::Id> ids = ids_of(options.ids);
+  const auto session = connect(global);
+  BodyFeed feed(*session);
+  static_cast<void>(value_or_throw(session->command(Command::watch(ids))));
+  std::size_t left = ids.size();
+  auto heard = std::chrono::steady_clock::now();
+  for (std::uint64_t updates = 0; updates < count && left > 0 && !interrupted();) {
+    const std::optional<BodyUpdate> update = feed.next(kLook);
+    if (!update) {
+      if (std::chrono::steady_clock::now() - heard > session->timeout()) {
+        check_alive(*session);
+        heard = std::chrono::steady_clock::now();
+      }
+      continue;
+    }
+    heard = std::chrono::steady_clock::now();
+    // Others may watch other bodies; a slot that falls empty does not say whose it was.
+    if (update->gone) {
+      const Result<Answer> still = session->ask(Query::states(ids));
+      if (!still && still.failure().answered) break;
+      continue;
+    }
+    if (std::find(ids.begin(), ids.end(), update->state.id) == ids.end()) continue;
+    print(body_line(*update, global.json));
+    ++updates;
+  }
+  static_cast<void>(session->command(Command::unwatch(ids), Milliseconds{500}).ok());
+}
+
+void add_states(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<StatesOptions>();
+  CLI::App* verb = add_verb(app,
+                            "states",
+                            "Print the states of all disks, frame by frame, or of some bodies, "
+                            "as they are published; Ctrl-C ends it",
+                            "stoss states --count 1, or stoss states 3 4 --json");
+  verb->add_option("ID", options->ids, "Only these bodies");
+  verb->add_option("--count", options->count, "End after so many frames (with IDs: states)");
+  verb->add_option("--head", options->head, "Print only the first so many disks of a frame");
+  verb->callback([&invocation, options] {
+    invocation.action = [&global = invocation.global, options] {
+      catch_interrupts();
+      if (options->ids.empty()) {
+        stream_frames(global, *options);
+      } else {
+        stream_bodies(global, *options);
+      }
+    };
+  });
+}
+
+struct CollisionsOptions {
+  std::string count;
+  std::string since;
+};
+
+std::string collision_line(const engine::Collision& c) {
+  std::string out = '#' + std::to_string(c.sequence) + "  t " + format_instant(c.instant) + "  " +
+                    word(c.kind) + ' ' + std::to_string(c.a) + ' ' + std::to_string(c.b) + "  at " +
+                    format_number(c.point.x()) + ',' + format_number(c.point.y()) + "  impulse " +
+                    format_number(c.impulse) + "  approach " + format_number(c.approach_speed);
+  if (c.regularised) out += "  regularised";
+  if (c.order_dependent) out += "  order-dependent";
+  return out + '\n';
+}
+
+/// Prints at most `room` collisions of a run; returns how many.
+std::uint64_t print_run(const CollisionRun& run, std::uint64_t room, bool json) {
+  if (run.lost > 0) {
+    std::fprintf(stderr,
+                 "stoss: %llu collisions are no longer kept by the daemon\n",
+                 static_cast<unsigned long long>(run.lost));
+  }
+  std::string out;
+  std::uint64_t printed = 0;
+  for (const engine::Collision& collision : run.collisions) {
+    if (printed == room) break;
+    if (json) {
+      append_json(out, collision);
+      out += '\n';
+    } else {
+      out += collision_line(collision);
+    }
+    ++printed;
+  }
+  print(out);
+  return printed;
+}
+
+void stream_collisions(const GlobalOptions& global, const CollisionsOptions& options) {
+  const std::uint64_t count = limit_of("--count", options.count);
+  std::optional<std::uint64_t> since;
+  if (!options.since.empty()) since = count_of("--since", options.since);
+  const auto session = connect(global);
+  CollisionFeed feed(*session, since);
+  auto heard = std::chrono::steady_clock::now();
+  for (std::uint64_t printed = 0; printed < count && !interrupted();) {
+    if (const std::optional<CollisionRun> run = feed.next(kLook)) {
+      printed += print_run(*run, count - printed, global.json);
+      heard = std::chrono::steady_clock::now();
+    } else if (std::chrono::steady_clock::now() - heard > session->timeout()) {
+      check_alive(*session);
+      heard = std::chrono::steady_clock::now();
+    }
+  }
+}
+
+void add_collisions(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<CollisionsOptions>();
+  CLI::App* verb = add_verb(app,
+                            "collisions",
+                            "Print collisions in their order as they happen; Ctrl-C ends it",
+                            "stoss collisions --since 1 --count 10 --json");
+  verb->add_option("--count", options->count, "End after so many");
+  verb->add_option("--since",
+                   options->since,
+                   "Begin with the collision of this number, as far back as the daemon keeps them");
+  verb->callback([&invocation, options] {
+    invocation.action = [&global = invocation.global, options] {
+      catch_interrupts();
+      stream_collisions(global, *options);
+    };
+  });
+}
+
+}  // namespace
+
+void add_stream_verbs(CLI::App& app, Invocation& invocation) {
+  add_states(app, invocation);
+  add_collisions(app, invocation);
+}
+
+}  // namespace stoss::client::cli

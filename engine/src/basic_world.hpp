@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The world in one arithmetic. The loop is: take the earliest event, check that its partner has not
+// changed since, resolve it, predict again for whoever changed.
+//
+// Who holds the prediction of a pair: the body that was predicted last, unless the other is dynamic
+// and this one is not, or the other is more than four times smaller: then the other holds it. A
+// wall or a large disk thus never scans its thousands of neighbours because one of them was hit.
+//
+// Invariants:
+//  1. For every pair that can meet, the event of one of the two is at or before their contact. An
+//     event whose partner has changed since is a lower bound and is predicted anew when it comes
+//     up.
+//  2. A prediction depends on the stored motions of the pair (and on walls that share the vertex).
+//  3. Slots, boxes, lists and the queue never reach an output.
+
+#include "body.hpp"
+#include "broad_phase/neighbours.hpp"
+#include "bytes.hpp"
+#include "contact_law/elastic.hpp"
+#include "contact_time/contact_time.hpp"
+#include "contact_time/disk_wall.hpp"
+#include "event_queue.hpp"
+#include "id_ledger.hpp"
+#include "screen.hpp"
+#include "world_core.hpp"
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace stoss::engine {
+
+/// The largest a disk may be, as a multiple of its partner, to hold their prediction.
+inline constexpr int kHolderRatioMax = 4;
+/// This many collisions at one instant, and 64 a body, with no command in between, are no physics
+/// but a packing without room: the world reports a stall and goes no further.
+inline constexpr std::uint64_t kStallCollisions = 100'000;
+
+template <class S>
+class BasicWorld final : public WorldCore {
+ public:
+  explicit BasicWorld(const WorldOptions& options);
+
+  std::unique_ptr<WorldCore> clone() const override { return std::make_unique<BasicWorld>(*this); }
+
+  Instant now() const override { return to_instant(now_); }
+  Arithmetic arithmetic() const override { return arithmetic_; }
+  BroadPhaseKind broad_phase() const override { return broad_phase_; }
+  std::size_t disk_count() const override { return slots_.size() - walls_in_use_; }
+  std::size_t wall_count() const override { return walls_in_use_; }
+  Counters counters() const override { return counters_; }
+  Conserved conserved() const override;
+
+  Outcome<std::vector<Id>> spawn(const SpawnRequest& request) override;
+  Outcome<Done> remove(std::span<const Id> ids) override;
+  Outcome<Done> set_velocity(std::span<const VectorFor> velocities) override;
+  Outcome<Done> apply_impulse(std::span<const VectorFor> impulses) override;
+  void nudge(std::uint64_t seed) override;
+  Outcome<AdvanceReport> advance_to(const Instant& until,
+                                    CollisionSink* sink,
+                                    std::uint64_t max_events) override;
+
+  bool contains(Id id) const override { return slots_.contains(id); }
+  Outcome<BodyState> state(Id id) const override;
+  Outcome<WallState> wall(Id id) const override;
+  void for_each_disk(const std::function<void(const BodyState&)>& visit) const override;
+  void for_each_wall(const std::function<void(const WallState&)>& visit) const override;
+  std::vector<Id> region(const Vector2& low, const Vector2& high) const override;
+  std::vector<Near> nearest(const Vector2& point, std::size_t count) const override;
+  std::optional<RayHit> ray(const Vector2& origin,
+                            const Vector2& direction,
+                            double length_max) const override;
+
+  Census census() const override;
+  Outcome<MotionRecord> motion(Id id) const override;
+  Outcome<BodyRecord> body(Id id) const override;
+  std::vector<Id> ids() const override;
+  std::vector<Change> drain_changes() override;
+
+  std::vector<std::byte> serialise() const override;
+  Outcome<Done> restore(std::span<const std::byte> bytes) override;
+  std::uint64_t state_hash() const override;
+
+ private:
+  /// A contact of two bodies as their motions foretell it. `a` is the disk of a disk and a wall, or
+  /// the disk of lower id.
+  struct Contact {
+    Slot a = -1;
+    Slot b = -1;
+    EventKind kind = EventKind::DiskDisk;
+    WallFeature feature = WallFeature::Face;
+    Time<S> reference;           ///< the later of the two motions' instants
+    RelativeMotion<S> relative;  ///< disk-disk: b from a; else: disk from the wall's start or end
+    Duration<S> after_reference{};  ///< s
+  };
+
+  /// Names the offending element of a command in a refusal.
+  struct Place {
+    const char* list;
+    std::size_t index;
+  };
+
+  static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
+  Body<S>& at(Slot slot) { return bodies_[index(slot)]; }
+  const Body<S>& at(Slot slot) const { return bodies_[index(slot)]; }
+  WallShape<S>& shape(Slot slot) { return shapes_[static_cast<std::size_t>(at(slot).wall)]; }
+  const WallShape<S>& shape(Slot slot) const {
+    return shapes_[static_cast<std::size_t>(at(slot).wall)];
+  }
+  bool all_pairs() const { return broad_phase_ == BroadPhaseKind::AllPairs; }
+  auto id_lookup() const;
+
+  // basic_world_predict.hpp
+  bool interacts(Slot a, Slot b) const;
+  bool holds_prediction(Slot holder, Slot other) const;
+  template <class Visit>
+  void for_each_neighbour(Slot slot, Visit&& visit) const;
+  RelativeMotion<S> relative_motion(const Motion<S>& of,
+                                    const Motion<S>& from,
+                                    const Time<S>& reference) const;
+  std::optional<Contact> contact_of(Slot i, Slot j) const;
+  std::optional<Contact> disk_disk_contact_of(Slot a, Slot b) const;
+  std::optional<Contact> disk_wall_contact_of(Slot disk, Slot wall) const;
+  RelativeMotion<S> motion_from_end(const RelativeMotion<S>& from_start, Slot wall, int end) const;
+  bool hidden_by_faces(const RelativeMotion<S>& from_vertex,
+                       Slot wall,
+                       int end,
+                       const Duration<S>& after) const;
+  DoubleWord2<S> edge_from(const WallEnd& vertex) const;
+  std::optional<Event<S>> event_with(Slot holder, Slot partner) const;
+  Event<S> renewal_event(Slot slot, const Glance& here) const;
+  double horizon_of(const Event<S>& event) const;
+  bool may_meet(Slot slot, const Glance& here, Slot other, double horizon) const;
+  void predict(Slot slot, bool changed);
+  void renew_box(Slot slot, double margin);
+  Aabb tight_box(Slot slot) const;
+  double smallest_margin(Slot slot) const;
+
+  // basic_world_events.hpp
+  bool is_stale(const Event<S>& event) const;
+  bool process(Slot slot, CollisionSink* sink);
+  void resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink);
+  bool is_squeezed(const Contact& contact) const;
+  double hop(Slot slot, const Time<S>& from, const Time<S>& to) const;
+  Vector2 normal_towards(Slot from, Slot to) const;
+  bool depends_on_order(Slot shared, Slot other, const Vector2& normal) const;
+  bool is_simultaneous(const Contact& contact,
+                       const Time<S>& before_a,
+                       const Time<S>& before_b) const;
+  DoubleWord2<S> contact_vector(const Contact& contact) const;
+  void rebase(Slot slot, const Time<S>& instant);
+  Collision describe(const Contact& contact,
+                     const Time<S>& instant,
+                     const PairImpulse<S>& impulse) const;
+  void validate(std::uint64_t events) const;
+  void count_towards_stall();
+  bool has_stalled(const Time<S>& instant) const;
+
+  // basic_world_commands.hpp
+  std::optional<Reject> check_disk(const DiskSpec& spec, std::size_t i) const;
+  std::optional<Reject> check_wall(const WallSpec& spec, std::size_t i) const;
+  std::optional<Reject> check_new_ids(const SpawnRequest& request) const;
+  std::optional<Reject> check_targets(std::span<const VectorFor> targets, const char* list) const;
+  std::optional<Reject> check_distinct(std::vector<Id> ids, const char* list) const;
+  Slot place(const DiskSpec& spec);
+  Slot place(const WallSpec& spec);
+  Slot take_slot(Id id, BodyType type);
+  void release(Slot slot);
+  std::optional<Reject> overlap_of(Slot slot, const Place& place) const;
+  Reject in_asked_ids(Reject overlap,
+                      const SpawnRequest& request,
+                      const std::vector<Id>& made) const;
+  double clearance(Slot a, Slot b) const;
+  double reach_of(Slot a, Slot b) const;
+  void enter(Slot slot);
+  void link_vertices(Slot wall);
+  void unlink_vertices(Slot wall);
+  void predict_around(Slot wall);
+  void lay_bare(Slot wall);
+  bool same_vertex(const WallEnd& a, const WallEnd& b) const;
+  void note_change(Slot slot, ChangeKind kind);
+
+  // basic_world_queries.hpp
+  Slot slot_of(Id id) const { return slots_.at(id); }
+  Reject not_found(Id id) const;
+  Rotation rotation_of(Slot slot) const;
+  const std::vector<Slot>& ordered_slots() const;
+  BodyState state_of(Slot slot) const;
+  WallState wall_of(Slot slot) const;
+  bool touches(Slot slot, const Vector2& low, const Vector2& high) const;
+  double distance_to(Slot slot, const Vector2& point) const;
+  std::optional<RayHit> ray_meets(Slot slot, const Vector2& origin, const Vector2& unit) const;
+
+  // basic_world_census.hpp
+  Aabb swept_box(Slot slot) const;
+  void examine(Slot a, Slot b, Census& census) const;
+
+  // basic_world_bytes.hpp
+  template <class Sink>
+  void write_body(Sink& sink, Slot slot) const;
+  void note_digest_stale(Slot slot);
+  void read_body(ByteSource& source, Id id, BodyType type);
+  bool is_sound(Slot slot) const;
+  void settle();
+
+  Time<S> now_;
+  Arithmetic arithmetic_;
+  BroadPhaseKind broad_phase_;
+  Counters counters_;
+  Id next_id_ = 1;
+  IdLedger ledger_;
+
+  std::vector<Body<S>> bodies_;
+  std::vector<WallShape<S>> shapes_;
+  std::vector<Slot> free_slots_;
+  std::vector<std::int32_t> free_shapes_;
+  std::unordered_map<Id, Slot> slots_;            // looked up, never iterated
+  std::unordered_map<Slot, Rotation> rotations_;  // of the disks that turn or are turned; likewise
+  std::size_t walls_in_use_ = 0;
+
+  Neighbours neighbours_;
+  EventQueue<S> queue_;
+  Time<S> crowded_instant_ = Time<S>::never();  ///< of the last collision
+  std::uint64_t crowd_ = 0;                     ///< collisions at that instant since a command
+
+  // The bodies' digests, brought up to date for those that changed when the hash is asked for.
+  struct Digests {
+    std::vector<std::uint64_t> of_slot;
+    std::vector<bool> is_stale;
+    std::vector<Slot> stale;
+    std::uint64_t sum = 0;
+  };
+  mutable Digests digests_;
+
+  // Changes since the last drain; nothing is kept until somebody drains for the first time.
+  bool tracking_ = false;
+  std::vector<Id> changed_;
+  std::unordered_map<Id, ChangeKind> change_of_;
+
+  mutable std::vector<Slot> ordered_;
+  mutable bool ordered_valid_ = true;
+};
+
+template <class S>
+BasicWorld<S>::BasicWorld(const WorldOptions& options)
+    : now_(from_instant<Time<S>>(options.start)),
+      arithmetic_(options.arithmetic),
+      broad_phase_(options.broad_phase) {}
+
+}  // namespace stoss::engine
+
+#include "basic_world_bytes.hpp"
+#include "basic_world_commands.hpp"
+#include "basic_world_queries.hpp"
+// After the queries, whose evaluations they use.
+#include "basic_world_census.hpp"
+#include "basic_world_events.hpp"
+#include "basic_world_predict.hpp"

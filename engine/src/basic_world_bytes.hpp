@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The world as canonical bytes and as a digest.
+//
+// Layout, in 64-bit words: magic, format, arithmetic, now, collisions at now that count towards a
+// stall, collisions, regularised, next id, retired runs (count, then first and last of each),
+// bodies (count, then each in the order of ids). No event, box, list or slot is written:
+// predictions are functions of the motions and are made anew.
+
+#include "basic_world.hpp"
+#include "bytes.hpp"
+#include "limits.hpp"
+
+namespace stoss::engine {
+
+inline constexpr std::uint64_t kBytesMagic = 0x31444c525753534fU;
+/// Raised whenever the layout changes or the engine's results do.
+inline constexpr std::uint64_t kBytesFormat = 1;
+
+template <class S>
+template <class Sink>
+void BasicWorld<S>::write_body(Sink& sink, Slot slot) const {
+  const Body<S>& body = at(slot);
+  const Rotation rotation = rotation_of(slot);
+  sink.word(body.id);
+  sink.word(static_cast<std::uint64_t>(body.type));
+  write_time(sink, body.motion.since);
+  write_vector(sink, body.motion.position);
+  write_vector(sink, body.motion.velocity);
+  if (body.is_wall()) {
+    write_vector(sink, shape(slot).edge);
+    return;
+  }
+  write_scalar(sink, body.radius);
+  write_scalar(sink, body.mass);
+  sink.word(std::bit_cast<std::uint64_t>(rotation.angle));
+  sink.word(std::bit_cast<std::uint64_t>(rotation.spin));
+}
+
+template <class S>
+std::vector<std::byte> BasicWorld<S>::serialise() const {
+  ByteSink sink;
+  sink.word(kBytesMagic);
+  sink.word(kBytesFormat);
+  sink.word(static_cast<std::uint64_t>(arithmetic_));
+  write_time(sink, now_);
+  sink.word(crowded_instant_ == now_ ? crowd_ : 0);
+  sink.word(counters_.collisions);
+  sink.word(counters_.regularised);
+  sink.word(next_id_);
+  sink.word(ledger_.runs().size());
+  for (const auto& [first, last] : ledger_.runs()) {
+    sink.word(first);
+    sink.word(last);
+  }
+  sink.word(slots_.size());
+  for (const Slot slot : ordered_slots()) write_body(sink, slot);
+  return sink.take();
+}
+
+template <class S>
+void BasicWorld<S>::note_digest_stale(Slot slot) {
+  if (index(slot) >= digests_.of_slot.size()) {
+    digests_.of_slot.resize(index(slot) + 1, 0);
+    digests_.is_stale.resize(index(slot) + 1, false);
+  }
+  if (digests_.is_stale[index(slot)]) return;
+  digests_.is_stale[index(slot)] = true;
+  digests_.stale.push_back(slot);
+}
+
+// A sum over bodies, so that it does not depend on an order and follows changes body by body.
+template <class S>
+std::uint64_t BasicWorld<S>::state_hash() const {
+  DigestSink header;
+  header.word(static_cast<std::uint64_t>(arithmetic_));
+  header.word(counters_.collisions);
+  header.word(counters_.regularised);
+  header.word(next_id_);
+  for (const auto& [first, last] : ledger_.runs()) {
+    header.word(first);
+    header.word(last);
+  }
+  for (const Slot slot : digests_.stale) {
+    DigestSink digest;
+    if (at(slot).id != kNoId) write_body(digest, slot);
+    const std::uint64_t now = at(slot).id != kNoId ? digest.digest() : 0;
+    digests_.sum += now - digests_.of_slot[index(slot)];
+    digests_.of_slot[index(slot)] = now;
+    digests_.is_stale[index(slot)] = false;
+  }
+  digests_.stale.clear();
+  return header.digest() + digests_.sum;
+}
+
+template <class S>
+Outcome<Done> BasicWorld<S>::restore(std::span<const std::byte> bytes) {
+  const auto damaged = [](const char* why) {
+    return Reject{.code = Code::InvalidArgument, .field = "bytes", .reason = why};
+  };
+  ByteSource source(bytes);
+  if (source.word() != kBytesMagic) return damaged("these are not a world's bytes");
+  if (source.word() != kBytesFormat) return damaged("written in a format that is not known here");
+  if (source.word() != static_cast<std::uint64_t>(arithmetic_)) {
+    return damaged("written in another arithmetic");
+  }
+  BasicWorld fresh({.start = {}, .arithmetic = arithmetic_, .broad_phase = broad_phase_});
+  fresh.now_ = read_time<Time<S>>(source);
+  if (!in_range(to_instant(fresh.now_))) return damaged("the instant is damaged");
+  fresh.crowded_instant_ = fresh.now_;
+  fresh.crowd_ = source.word();
+  fresh.counters_.collisions = source.word();
+  fresh.counters_.regularised = source.word();
+  const Id next_id = source.word();
+  const std::uint64_t run_count = source.word();
+  if (run_count > source.words_left()) return damaged("truncated");
+  Id retired = kNoId;
+  for (std::uint64_t i = 0; i < run_count; ++i) {
+    const Id first = source.word();
+    const Id last = source.word();
+    // Runs with a gap between them, in order.
+    if (first <= retired || (i > 0 && first == retired + 1) || last < first || last >= next_id) {
+      return damaged("the retired ids are damaged");
+    }
+    fresh.ledger_.restore_run(first, last);
+    retired = last;
+  }
+  const std::uint64_t body_count = source.word();
+  if (body_count > source.words_left()) return damaged("truncated");
+  Id previous = kNoId;
+  for (std::uint64_t i = 0; i < body_count; ++i) {
+    const Id id = source.word();
+    const std::uint64_t type = source.word();
+    if (id <= previous || type > static_cast<std::uint64_t>(BodyType::Wall) ||
+        fresh.ledger_.is_retired(id)) {
+      return damaged("the bodies are damaged");
+    }
+    previous = id;
+    fresh.read_body(source, id, static_cast<BodyType>(type));
+    if (!fresh.is_sound(fresh.slot_of(id))) return damaged("a body is damaged");
+  }
+  if (!source.at_end()) return damaged("truncated, or with bytes left over");
+  fresh.next_id_ = next_id;
+  const std::vector<std::byte> again = fresh.serialise();
+  if (previous >= next_id || !std::equal(bytes.begin(), bytes.end(), again.begin(), again.end())) {
+    return damaged("not as any world would write itself");
+  }
+  fresh.settle();
+  if (!fresh.queue_.empty() && fresh.queue_.event_of(fresh.queue_.top()).at < fresh.now_) {
+    return damaged("a contact lies before the present");
+  }
+  *this = std::move(fresh);
+  return Done{};
+}
+
+template <class S>
+void BasicWorld<S>::read_body(ByteSource& source, Id id, BodyType type) {
+  const Slot slot = take_slot(id, type);
+  Body<S>& body = at(slot);
+  body.motion.since = read_time<Time<S>>(source);
+  body.motion.position = read_vector<S>(source);
+  body.motion.velocity = read_vector<S>(source);
+  if (body.is_wall()) {
+    body.wall = static_cast<std::int32_t>(shapes_.size());
+    shapes_.push_back({read_vector<S>(source), {}});
+    ++walls_in_use_;
+    return;
+  }
+  body.radius = read_scalar<S>(source);
+  body.mass = read_scalar<S>(source);
+  const auto angle = std::bit_cast<double>(source.word());
+  const auto spin = std::bit_cast<double>(source.word());
+  if (angle != 0 || spin != 0) rotations_[slot] = {angle, spin};
+}
+
+// Could this body have come of commands and collisions?
+template <class S>
+bool BasicWorld<S>::is_sound(Slot slot) const {
+  const Body<S>& body = at(slot);
+  const auto is_number = [](const DoubleWord<S>& x) {
+    return std::isfinite(static_cast<double>(x.hi)) && S(x.hi + x.lo) == x.hi;
+  };
+  const auto are_numbers = [&](const DoubleWord2<S>& v) {
+    return is_number(v.x) && is_number(v.y);
+  };
+  const Motion<S>& m = body.motion;
+  if (!in_range(to_instant(m.since)) || m.since > now_) return false;
+  if (!are_numbers(m.position) || !are_numbers(m.velocity)) return false;
+  if (body.is_wall()) {
+    const DoubleWord2<S>& edge = shape(slot).edge;
+    return are_numbers(edge) && (edge.x.hi != S(0) || edge.y.hi != S(0));
+  }
+  const bool moves = m.velocity.x.hi != S(0) || m.velocity.y.hi != S(0);
+  if (body.type == BodyType::Static && moves) return false;
+  const Rotation rotation = rotation_of(slot);
+  return body.radius > S(0) && static_cast<double>(body.radius) <= detail::kLengthMax<S> &&
+         detail::is_usable_mass<S>(static_cast<double>(body.mass)) &&
+         std::isfinite(rotation.angle) && std::isfinite(rotation.spin);
+}
+
+// Boxes, vertices and events for bodies that have just been read.
+template <class S>
+void BasicWorld<S>::settle() {
+  for (const Slot slot : ordered_slots()) renew_box(slot, static_cast<double>(at(slot).radius));
+  for (const Slot slot : ordered_slots()) {
+    if (at(slot).is_wall()) link_vertices(slot);
+  }
+  for (const Slot slot : ordered_slots()) predict(slot, /*changed=*/true);
+}
+
+}  // namespace stoss::engine

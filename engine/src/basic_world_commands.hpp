@@ -1,0 +1,634 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Commands: everything is checked before anything is changed; a refusal leaves every byte as it
+// was.
+
+#include "basic_world.hpp"
+#include "limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace stoss::engine {
+
+namespace detail {
+
+inline bool is_finite(const Vector2& v) { return std::isfinite(v.x()) && std::isfinite(v.y()); }
+inline bool within(const Vector2& v, double limit) {
+  return std::abs(v.x()) <= limit && std::abs(v.y()) <= limit;
+}
+/// -0 and 0 are one state, so they are one bit pattern.
+inline double canonical(double x) { return x == 0 ? 0.0 : x; }
+
+inline std::string field_name(const char* list, std::size_t i, const char* member) {
+  std::string name = std::string(list) + "[" + std::to_string(i) + "]";
+  return *member == '\0' ? name : name + "." + member;
+}
+
+inline Reject invalid(
+    const char* list, std::size_t i, const char* member, Id body, std::string reason) {
+  return {.code = Code::InvalidArgument,
+          .field = field_name(list, i, member),
+          .index = i,
+          .body = body,
+          .reason = std::move(reason)};
+}
+
+inline std::optional<Reject> check_vector(
+    const Vector2& v, double limit, const char* list, std::size_t i, const char* member, Id body) {
+  if (!is_finite(v)) return invalid(list, i, member, body, "is not finite");
+  if (!within(v, limit)) {
+    return invalid(list, i, member, body, "is beyond what this world's arithmetic can work with");
+  }
+  return std::nullopt;
+}
+
+// Not inlined: where GCC 12 vectorises two of these side by side, it takes a double that was
+// narrowed to float and widened again for the double itself, and the low word is lost.
+template <class S>
+[[gnu::noinline]] DoubleWord<S> stored(double x) {
+  const double value = canonical(x);
+  if constexpr (std::is_same_v<S, float>) {
+    const auto high = static_cast<float>(value);
+    return {high, static_cast<float>(value - static_cast<double>(high))};
+  } else {
+    return {S(value), S(0)};
+  }
+}
+
+template <class S>
+DoubleWord2<S> stored(const Vector2& v) {
+  return {stored<S>(v.x()), stored<S>(v.y())};
+}
+
+}  // namespace detail
+
+template <class S>
+std::optional<Reject> BasicWorld<S>::check_disk(const DiskSpec& spec, std::size_t i) const {
+  using detail::invalid;
+  const auto check = [&](const Vector2& v, double limit, const char* member) {
+    return detail::check_vector(v, limit, "disks", i, member, spec.id);
+  };
+  if (auto reject = check(spec.position, detail::kLengthMax<S>, "position")) return reject;
+  if (auto reject = check(spec.velocity, detail::kSpeedMax<S>, "velocity")) return reject;
+  if (!(spec.radius > 0) || !(spec.radius <= detail::kLengthMax<S>) || !(S(spec.radius) > S(0))) {
+    return invalid("disks",
+                   i,
+                   "radius",
+                   spec.id,
+                   "must be above 0, finite, and within the range of this world's arithmetic");
+  }
+  if (!detail::is_usable_mass<S>(spec.mass)) {
+    return invalid("disks",
+                   i,
+                   "mass",
+                   spec.id,
+                   "must be above 0, finite, and within the range of this world's arithmetic");
+  }
+  if (!std::isfinite(spec.angle)) return invalid("disks", i, "angle", spec.id, "is not finite");
+  if (!std::isfinite(spec.spin)) return invalid("disks", i, "spin", spec.id, "is not finite");
+  if (spec.kind > BodyKind::Static) return invalid("disks", i, "kind", spec.id, "is unknown");
+  if (spec.kind == BodyKind::Static && spec.velocity != Vector2::Zero()) {
+    return invalid("disks", i, "velocity", spec.id, "must be zero for a static disk");
+  }
+  return std::nullopt;
+}
+
+template <class S>
+std::optional<Reject> BasicWorld<S>::check_wall(const WallSpec& spec, std::size_t i) const {
+  const auto check = [&](const Vector2& v, double limit, const char* member) {
+    return detail::check_vector(v, limit, "walls", i, member, spec.id);
+  };
+  if (auto reject = check(spec.start, detail::kLengthMax<S>, "start")) return reject;
+  if (auto reject = check(spec.end, detail::kLengthMax<S>, "end")) return reject;
+  if (auto reject = check(spec.velocity, detail::kSpeedMax<S>, "velocity")) return reject;
+  if (spec.start == spec.end) {
+    return detail::invalid("walls", i, "end", spec.id, "equals start: a wall needs a length");
+  }
+  return std::nullopt;
+}
+
+template <class S>
+std::optional<Reject> BasicWorld<S>::check_new_ids(const SpawnRequest& request) const {
+  std::vector<std::pair<Id, std::size_t>> asked;
+  const auto check = [&](Id id, const char* list, std::size_t i) -> std::optional<Reject> {
+    if (id == kNoId) return std::nullopt;
+    if (slots_.contains(id) || ledger_.is_retired(id)) {
+      return Reject{.code = Code::AlreadyExists,
+                    .field = detail::field_name(list, i, "id"),
+                    .index = i,
+                    .body = id,
+                    .reason = slots_.contains(id) ? "the id is in use"
+                                                  : "the id was used before and is retired"};
+    }
+    if (id == std::numeric_limits<Id>::max()) {
+      return detail::invalid(list, i, "id", id, "is the last 64-bit number, which is kept free");
+    }
+    asked.emplace_back(id, i);
+    return std::nullopt;
+  };
+  for (std::size_t i = 0; i < request.disks.size(); ++i) {
+    if (auto reject = check(request.disks[i].id, "disks", i)) return reject;
+  }
+  for (std::size_t i = 0; i < request.walls.size(); ++i) {
+    if (auto reject = check(request.walls[i].id, "walls", i)) return reject;
+  }
+  std::sort(asked.begin(), asked.end());
+  const auto twin = std::adjacent_find(
+      asked.begin(), asked.end(), [](const auto& x, const auto& y) { return x.first == y.first; });
+  if (twin == asked.end()) return std::nullopt;
+  return Reject{.code = Code::AlreadyExists,
+                .field = "id",
+                .index = (twin + 1)->second,
+                .body = twin->first,
+                .reason = "the id is asked for twice in one command"};
+}
+
+template <class S>
+Outcome<std::vector<Id>> BasicWorld<S>::spawn(const SpawnRequest& request) {
+  for (std::size_t i = 0; i < request.disks.size(); ++i) {
+    if (auto reject = check_disk(request.disks[i], i)) return *reject;
+  }
+  for (std::size_t i = 0; i < request.walls.size(); ++i) {
+    if (auto reject = check_wall(request.walls[i], i)) return *reject;
+  }
+  if (auto reject = check_new_ids(request)) return *reject;
+
+  const Id next_id_before = next_id_;
+  std::uint64_t unnamed = 0;
+  const auto count = [&](const auto& specs) {
+    for (const auto& spec : specs) {
+      next_id_ = std::max(next_id_, spec.id + 1);
+      if (spec.id == kNoId) ++unnamed;
+    }
+  };
+  count(request.disks);
+  count(request.walls);
+  if (unnamed > std::numeric_limits<Id>::max() - next_id_) {
+    next_id_ = next_id_before;
+    return Reject{.code = Code::ResourceExhausted,
+                  .field = "id",
+                  .reason = "this world has no ids left to assign; ask for free ones by number"};
+  }
+  std::vector<Slot> placed;
+  std::vector<Id> made;
+  const auto admit = [&](const auto& spec, const Place& where) -> std::optional<Reject> {
+    const Slot slot = place(spec);
+    placed.push_back(slot);
+    made.push_back(at(slot).id);
+    renew_box(slot, static_cast<double>(at(slot).radius));
+    auto overlap = overlap_of(slot, where);
+    if (overlap) overlap = in_asked_ids(std::move(*overlap), request, made);
+    return overlap;
+  };
+  std::optional<Reject> reject;
+  for (std::size_t i = 0; i < request.disks.size() && !reject; ++i) {
+    reject = admit(request.disks[i], {"disks", i});
+  }
+  for (std::size_t i = 0; i < request.walls.size() && !reject; ++i) {
+    reject = admit(request.walls[i], {"walls", i});
+  }
+  if (reject) {
+    for (const Slot slot : placed) release(slot);
+    next_id_ = next_id_before;
+    return *reject;
+  }
+  for (const Slot slot : placed) {
+    if (at(slot).is_wall()) link_vertices(slot);
+  }
+  for (const Slot slot : placed) {
+    enter(slot);
+    note_change(slot, ChangeKind::Spawned);
+  }
+  crowd_ = 0;
+  return made;
+}
+
+// Ids that the refused command would have been given do not exist: a body without an id of its own
+// is named by its place in the command.
+template <class S>
+Reject BasicWorld<S>::in_asked_ids(Reject overlap,
+                                   const SpawnRequest& request,
+                                   const std::vector<Id>& made) const {
+  const std::size_t disks = request.disks.size();
+  const auto asked = [&](std::size_t i) {
+    return i < disks ? request.disks[i].id : request.walls[i - disks].id;
+  };
+  overlap.body = asked(made.size() - 1);
+  const auto mate = std::find(made.begin(), made.end(), overlap.other);
+  if (mate == made.end()) return overlap;
+  const auto i = static_cast<std::size_t>(mate - made.begin());
+  overlap.other = asked(i);
+  overlap.reason = "overlaps " +
+                   (i < disks ? detail::field_name("disks", i, "")
+                              : detail::field_name("walls", i - disks, "")) +
+                   " of the same command";
+  return overlap;
+}
+
+template <class S>
+Slot BasicWorld<S>::take_slot(Id id, BodyType type) {
+  Slot slot;
+  if (free_slots_.empty()) {
+    slot = static_cast<Slot>(bodies_.size());
+    bodies_.emplace_back();
+  } else {
+    slot = free_slots_.back();
+    free_slots_.pop_back();
+  }
+  Body<S>& body = at(slot);
+  const std::uint32_t changes = body.changes;  // never repeats, so that old events stay stale
+  body = Body<S>{};
+  body.changes = changes + 1;
+  body.id = id != kNoId ? id : next_id_++;
+  body.type = type;
+  body.motion.since = now_;
+  slots_.emplace(body.id, slot);
+  queue_.admit(slot);
+  note_digest_stale(slot);
+  ordered_valid_ = false;
+  return slot;
+}
+
+template <class S>
+Slot BasicWorld<S>::place(const DiskSpec& spec) {
+  const Slot slot = take_slot(spec.id, type_of(spec.kind));
+  Body<S>& body = at(slot);
+  body.motion.position = detail::stored<S>(spec.position);
+  body.motion.velocity = detail::stored<S>(spec.velocity);
+  body.radius = S(spec.radius);
+  body.mass = S(spec.mass);
+  if (spec.angle != 0 || spec.spin != 0) {
+    rotations_[slot] = {detail::canonical(spec.angle), detail::canonical(spec.spin)};
+  }
+  return slot;
+}
+
+template <class S>
+Slot BasicWorld<S>::place(const WallSpec& spec) {
+  const Slot slot = take_slot(spec.id, BodyType::Wall);
+  Body<S>& body = at(slot);
+  body.motion.position = detail::stored<S>(spec.start);
+  body.motion.velocity = detail::stored<S>(spec.velocity);
+  if (free_shapes_.empty()) {
+    body.wall = static_cast<std::int32_t>(shapes_.size());
+    shapes_.emplace_back();
+  } else {
+    body.wall = free_shapes_.back();
+    free_shapes_.pop_back();
+  }
+  const DoubleWord2<S> end = detail::stored<S>(spec.end);
+  shape(slot) = {{end.x - body.motion.position.x, end.y - body.motion.position.y}, {}};
+  ++walls_in_use_;
+  return slot;
+}
+
+/// The distance at which two bodies touch, m: between centres, or from a centre to a wall.
+template <class S>
+double BasicWorld<S>::reach_of(Slot a, Slot b) const {
+  return static_cast<double>(at(a).radius) + static_cast<double>(at(b).radius);
+}
+
+/// The distance between two surfaces at now(), m; negative for an overlap. Not for two walls.
+template <class S>
+double BasicWorld<S>::clearance(Slot a, Slot b) const {
+  if (at(a).is_wall()) return clearance(b, a);
+  const RelativeMotion<S> r = relative_motion(at(a).motion, at(b).motion, now_);
+  DoubleWord2<S> apart = r.position;
+  if (at(b).is_wall()) {
+    const DoubleWord2<S>& e = shape(b).edge;
+    const DoubleWord<S> along = apart.x * e.x + apart.y * e.y;
+    const DoubleWord<S> length2 = e.x * e.x + e.y * e.y;
+    if (along.hi >= length2.hi) {
+      apart = {apart.x - e.x, apart.y - e.y};
+    } else if (along.hi > S(0)) {  // the face: its distance is the cross product over the length
+      const DoubleWord<S> cross = e.x * apart.y - e.y * apart.x;
+      const DoubleWord<S> distance = (cross.hi < S(0) ? -cross : cross) / sqrt(length2);
+      return static_cast<double>(to_scalar(distance - at(a).radius));
+    }
+  }
+  const DoubleWord<S> distance = sqrt(apart.x * apart.x + apart.y * apart.y);
+  const DoubleWord<S> reach = two_sum(at(a).radius, at(b).radius);
+  return static_cast<double>(to_scalar(distance - reach));
+}
+
+template <class S>
+std::optional<Reject> BasicWorld<S>::overlap_of(Slot slot, const Place& place) const {
+  Id worst = kNoId;
+  double deepest = 0;
+  for_each_neighbour(slot, [&](Slot other) {
+    const double gap = clearance(slot, other);
+    if (gap >= -kOverlapTolerance * reach_of(slot, other)) return;
+    const Id id = at(other).id;
+    if (worst == kNoId || gap < deepest || (gap == deepest && id < worst)) {
+      deepest = gap;
+      worst = id;
+    }
+  });
+  if (worst == kNoId) return std::nullopt;
+  return Reject{.code = Code::Overlap,
+                .field = detail::field_name(place.list, place.index, ""),
+                .index = place.index,
+                .body = at(slot).id,
+                .other = worst,
+                .clearance = deepest,
+                .reason = "overlaps body " + std::to_string(worst)};
+}
+
+// A new or changed body: predicts for it, and for the disks whose way a wall's ends now stand in.
+template <class S>
+void BasicWorld<S>::enter(Slot slot) {
+  predict(slot, /*changed=*/true);
+  if (!at(slot).is_wall()) return;
+  for (const auto& ends : shape(slot).incident) {
+    for (const WallEnd& other : ends) predict_around(other.wall);
+  }
+}
+
+// A wall whose vertices have changed: what was predicted with it may no longer hold.
+template <class S>
+void BasicWorld<S>::predict_around(Slot wall) {
+  ++at(wall).changes;
+  predict(wall, /*changed=*/true);
+}
+
+// A wall one of whose ends lost a neighbour: contacts that the neighbour hid count from now on, not
+// from before.
+template <class S>
+void BasicWorld<S>::lay_bare(Slot wall) {
+  rebase(wall, now_);
+  predict(wall, /*changed=*/true);
+}
+
+// Do two ends move as one point? A function of the stored motions, so that a world read from bytes
+// finds the same vertices. Chains that were moved and stopped, and arithmetics in which end - start
+// is rounded, hold their vertices to rounding: the tolerance is far above that, and far below the
+// margin within which faces and ends overlap.
+template <class S>
+bool BasicWorld<S>::same_vertex(const WallEnd& a, const WallEnd& b) const {
+  using detail::magnitude;
+  const Motion<S>& ma = at(a.wall).motion;
+  const Motion<S>& mb = at(b.wall).motion;
+  const auto same = [](const DoubleWord<S>& x, const DoubleWord<S>& y) {
+    return x.hi == y.hi && x.lo == y.lo;
+  };
+  if (!same(ma.velocity.x, mb.velocity.x) || !same(ma.velocity.y, mb.velocity.y)) return false;
+
+  const Time<S> when = std::max(ma.since, mb.since);
+  const DoubleWord2<S> none{};
+  const DoubleWord2<S>& to_a = a.end == 0 ? none : shape(a.wall).edge;
+  const DoubleWord2<S>& to_b = b.end == 0 ? none : shape(b.wall).edge;
+  const DoubleWord2<S> pa = position_at(ma, when);
+  const DoubleWord2<S> pb = position_at(mb, when);
+  const DoubleWord2<S> apart{(pa.x + to_a.x) - (pb.x + to_b.x), (pa.y + to_a.y) - (pb.y + to_b.y)};
+  const S unit = kCompensated<S> ? S(S(4096) * detail::epsilon<S>() * detail::epsilon<S>())
+                                 : S(S(64) * detail::epsilon<S>());
+  const S size = detail::sum_norm(ma.position) + detail::sum_norm(mb.position) +
+                 detail::sum_norm(pa) + detail::sum_norm(pb) + detail::sum_norm(to_a) +
+                 detail::sum_norm(to_b);
+  return detail::sum_norm(apart) <= unit * size;
+}
+
+template <class S>
+void BasicWorld<S>::link_vertices(Slot wall) {
+  std::vector<Slot> others;
+  const auto collect = [&](Slot other) {
+    if (other != wall && at(other).id != kNoId && at(other).is_wall()) others.push_back(other);
+  };
+  if (all_pairs()) {
+    for (Slot other = 0; index(other) < bodies_.size(); ++other) collect(other);
+  } else {
+    const Aabb box = tight_box(wall);
+    const double size = std::max(
+        {std::abs(box.low_x), std::abs(box.low_y), std::abs(box.high_x), std::abs(box.high_y)});
+    neighbours_.query(grown(box, kScreenSlack<S> * size), collect);  // ends may differ by rounding
+  }
+  for (const Slot other : others) {
+    for (int end = 0; end < 2; ++end) {
+      for (int other_end = 0; other_end < 2; ++other_end) {
+        const WallEnd mine{wall, end};
+        const WallEnd theirs{other, other_end};
+        auto& my_links = shape(wall).incident[static_cast<std::size_t>(end)];
+        auto& their_links = shape(other).incident[static_cast<std::size_t>(other_end)];
+        if (!same_vertex(mine, theirs)) continue;
+        if (std::find(my_links.begin(), my_links.end(), theirs) != my_links.end()) continue;
+        my_links.push_back(theirs);
+        their_links.push_back(mine);
+      }
+    }
+  }
+}
+
+template <class S>
+void BasicWorld<S>::unlink_vertices(Slot wall) {
+  for (auto& links : shape(wall).incident) {
+    const std::vector<WallEnd> others = std::move(links);
+    links.clear();
+    for (const WallEnd& other : others) {
+      std::erase_if(shape(other.wall).incident[static_cast<std::size_t>(other.end)],
+                    [wall](const WallEnd& end) { return end.wall == wall; });
+    }
+  }
+}
+
+// Frees a slot. Whoever was to meet the body is predicted anew: no event may name a free slot.
+template <class S>
+void BasicWorld<S>::release(Slot slot) {
+  std::vector<Slot> linked;
+  if (at(slot).is_wall()) {
+    for (const auto& links : shape(slot).incident) {
+      for (const WallEnd& other : links) linked.push_back(other.wall);
+    }
+    unlink_vertices(slot);
+    free_shapes_.push_back(at(slot).wall);
+    --walls_in_use_;
+  }
+  queue_.erase(slot, id_lookup());
+  std::vector<Slot> meeting;
+  for_each_neighbour(slot, [&](Slot other) {
+    const Event<S>& event = queue_.event_of(other);
+    if (event.kind != EventKind::NeighbourRenewal && event.partner == slot) {
+      meeting.push_back(other);
+    }
+  });
+  for (const Slot other : meeting) queue_.erase(other, id_lookup());
+  if (!all_pairs()) neighbours_.remove(slot);
+  slots_.erase(at(slot).id);
+  rotations_.erase(slot);
+  at(slot).id = kNoId;
+  free_slots_.push_back(slot);
+  note_digest_stale(slot);
+  ordered_valid_ = false;
+  for (const Slot other : meeting) predict(other, /*changed=*/false);
+  for (const Slot other : linked) lay_bare(other);
+}
+
+template <class S>
+std::optional<Reject> BasicWorld<S>::check_distinct(std::vector<Id> ids, const char* list) const {
+  std::sort(ids.begin(), ids.end());
+  const auto twin = std::adjacent_find(ids.begin(), ids.end());
+  if (twin == ids.end()) return std::nullopt;
+  return Reject{.code = Code::InvalidArgument,
+                .field = list,
+                .body = *twin,
+                .reason = "the body is named twice in one command"};
+}
+
+template <class S>
+Outcome<Done> BasicWorld<S>::remove(std::span<const Id> ids) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (slots_.contains(ids[i])) continue;
+    return Reject{.code = Code::NotFound,
+                  .field = detail::field_name("ids", i, ""),
+                  .index = i,
+                  .body = ids[i],
+                  .reason = "no such body"};
+  }
+  if (auto reject = check_distinct({ids.begin(), ids.end()}, "ids")) return *reject;
+  for (const Id id : ids) {
+    const Slot slot = slot_of(id);
+    note_change(slot, ChangeKind::Removed);
+    release(slot);
+    ledger_.retire(id);
+  }
+  crowd_ = 0;
+  return Done{};
+}
+
+template <class S>
+std::optional<Reject> BasicWorld<S>::check_targets(std::span<const VectorFor> targets,
+                                                   const char* list) const {
+  std::vector<Id> ids;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const VectorFor& target = targets[i];
+    ids.push_back(target.id);
+    if (!slots_.contains(target.id)) {
+      return Reject{.code = Code::NotFound,
+                    .field = detail::field_name(list, i, "id"),
+                    .index = i,
+                    .body = target.id,
+                    .reason = "no such body"};
+    }
+    if (auto reject =
+            detail::check_vector(target.value, detail::kSpeedMax<S>, list, i, "value", target.id)) {
+      return reject;
+    }
+  }
+  return check_distinct(std::move(ids), list);
+}
+
+template <class S>
+Outcome<Done> BasicWorld<S>::set_velocity(std::span<const VectorFor> velocities) {
+  if (auto reject = check_targets(velocities, "velocities")) return *reject;
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    if (at(slot_of(velocities[i].id)).type != BodyType::Static) continue;
+    return Reject{.code = Code::FailedPrecondition,
+                  .field = detail::field_name("velocities", i, "id"),
+                  .index = i,
+                  .body = velocities[i].id,
+                  .reason = "a static disk has no velocity to set"};
+  }
+  std::vector<Slot> walls;
+  for (const VectorFor& target : velocities) {
+    const Slot slot = slot_of(target.id);
+    rebase(slot, now_);
+    at(slot).motion.velocity = detail::stored<S>(target.value);
+    if (at(slot).is_wall()) walls.push_back(slot);
+  }
+  for (const Slot wall : walls) {
+    std::vector<Slot> linked;
+    for (const auto& links : shape(wall).incident) {
+      for (const WallEnd& other : links) linked.push_back(other.wall);
+    }
+    unlink_vertices(wall);
+    for (const Slot other : linked) lay_bare(other);
+  }
+  for (const Slot wall : walls) link_vertices(wall);
+  for (const VectorFor& target : velocities) enter(slot_of(target.id));
+  crowd_ = 0;
+  return Done{};
+}
+
+template <class S>
+Outcome<Done> BasicWorld<S>::apply_impulse(std::span<const VectorFor> impulses) {
+  if (auto reject = check_targets(impulses, "impulses")) return *reject;
+  const auto after = [this](const VectorFor& target) {
+    const Body<S>& body = at(slot_of(target.id));
+    const auto add = [&](const DoubleWord<S>& v, double impulse) {
+      return v + detail::stored<S>(impulse) / DoubleWord<S>{body.mass, S(0)};
+    };
+    return DoubleWord2<S>{add(body.motion.velocity.x, target.value.x()),
+                          add(body.motion.velocity.y, target.value.y())};
+  };
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    const VectorFor& target = impulses[i];
+    if (!at(slot_of(target.id)).is_dynamic()) {
+      return Reject{.code = Code::FailedPrecondition,
+                    .field = detail::field_name("impulses", i, "id"),
+                    .index = i,
+                    .body = target.id,
+                    .reason = "only a dynamic disk answers to an impulse"};
+    }
+    const DoubleWord2<S> v = after(target);
+    if (auto reject =
+            detail::check_vector({static_cast<double>(v.x.hi), static_cast<double>(v.y.hi)},
+                                 detail::kSpeedMax<S>,
+                                 "impulses",
+                                 i,
+                                 "value",
+                                 target.id)) {
+      return *reject;
+    }
+  }
+  for (const VectorFor& target : impulses) {
+    const DoubleWord2<S> velocity = after(target);
+    rebase(slot_of(target.id), now_);
+    at(slot_of(target.id)).motion.velocity = velocity;
+  }
+  for (const VectorFor& target : impulses) enter(slot_of(target.id));
+  crowd_ = 0;
+  return Done{};
+}
+
+template <class S>
+void BasicWorld<S>::nudge(std::uint64_t seed) {
+  for (const Slot slot : ordered_slots()) {
+    if (!at(slot).is_dynamic()) continue;
+    rebase(slot, now_);
+    DigestSink signs;
+    signs.word(seed);
+    signs.word(at(slot).id);
+    std::uint64_t bits = signs.digest();
+    const auto off = [&bits](DoubleWord<S>& x) {
+      const S unit = std::numeric_limits<S>::epsilon() * x.hi;
+      x = x + ((bits & 1) != 0 ? unit : S(-unit));
+      bits >>= 1;
+    };
+    off(at(slot).motion.position.x);
+    off(at(slot).motion.position.y);
+    off(at(slot).motion.velocity.x);
+    off(at(slot).motion.velocity.y);
+  }
+  for (const Slot slot : ordered_slots()) predict(slot, /*changed=*/true);
+}
+
+// A body that comes and goes between two drains leaves no trace.
+template <class S>
+void BasicWorld<S>::note_change(Slot slot, ChangeKind kind) {
+  if (!tracking_) return;
+  const Id id = at(slot).id;
+  const auto [entry, is_new] = change_of_.try_emplace(id, kind);
+  if (is_new) {
+    changed_.push_back(id);
+  } else if (kind == ChangeKind::Removed) {
+    entry->second = entry->second == ChangeKind::Spawned ? ChangeKind::Spawned : kind;
+    if (entry->second == ChangeKind::Spawned) {
+      change_of_.erase(entry);
+      std::erase(changed_, id);
+    }
+  }
+}
+
+}  // namespace stoss::engine

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// The event loop and the resolution of contacts.
+
+#include "basic_world.hpp"
+#include "contact_law/elastic.hpp"
+#include "simultaneous.hpp"
+
+#include <stoss/engine/check.hpp>
+
+namespace stoss::engine {
+
+template <class S>
+Outcome<AdvanceReport> BasicWorld<S>::advance_to(const Instant& until,
+                                                 CollisionSink* sink,
+                                                 std::uint64_t max_events) {
+  if (!in_range(until)) {
+    return Reject{.code = Code::InvalidArgument,
+                  .field = "instant",
+                  .reason = "the instant is beyond the end of time (2^61 s)"};
+  }
+  if (until < now()) {
+    return Reject{.code = Code::DeadlinePassed,
+                  .field = "instant",
+                  .reason = "the instant is in the past: the world has moved on"};
+  }
+  AdvanceReport report;
+  const std::uint64_t collisions_before = counters_.collisions;
+  const Time<S> end = std::max(now_, from_instant<Time<S>>(until));
+  while (!queue_.empty() && queue_.event_of(queue_.top()).at <= end) {
+    if (report.events == max_events) {
+      report.stop = Stop::EventBudget;
+      break;
+    }
+    const Slot slot = queue_.top();
+    const Time<S> instant = queue_.event_of(slot).at;
+    now_ = std::max(now_, instant);
+    if (!process(slot, sink)) {
+      report.stop = Stop::Stalled;
+      report.stalled = at(slot).id;
+      break;
+    }
+    ++report.events;
+    validate(report.events);
+  }
+  if (report.stop == Stop::Reached) now_ = end;
+  report.collisions = counters_.collisions - collisions_before;
+  return report;
+}
+
+// With STOSS_VALIDATE every so many events the whole world is looked at.
+template <class S>
+void BasicWorld<S>::validate([[maybe_unused]] std::uint64_t events) const {
+#ifdef STOSS_VALIDATE
+  constexpr std::uint64_t kEvery = 1024;
+  if (events % kEvery != 0) return;
+  const Census found = census();
+  check(found.overlaps == 0, "two bodies overlap");
+  check(found.missed == 0, "a contact was missed");
+#endif
+}
+
+template <class S>
+void BasicWorld<S>::count_towards_stall() {
+  if (now_ != crowded_instant_) {
+    crowded_instant_ = now_;
+    crowd_ = 0;
+  }
+  ++crowd_;
+}
+
+// Told from collisions alone, so that every run stalls at the same one.
+template <class S>
+bool BasicWorld<S>::has_stalled(const Time<S>& instant) const {
+  return crowd_ >= kStallCollisions + 64 * slots_.size() && instant == crowded_instant_;
+}
+
+template <class S>
+bool BasicWorld<S>::is_stale(const Event<S>& event) const {
+  return at(event.partner).id == kNoId || at(event.partner).changes != event.partner_changes;
+}
+
+// False if the event cannot be processed: the world stops before it.
+template <class S>
+bool BasicWorld<S>::process(Slot slot, CollisionSink* sink) {
+  const Event<S> event = queue_.event_of(slot);
+  if (event.kind == EventKind::NeighbourRenewal) {
+    ++counters_.renewals;
+    renew_box(slot, neighbours_.next_margin(slot));
+    predict(slot, /*changed=*/true);
+    return true;
+  }
+  if (is_stale(event)) {
+    predict(slot, /*changed=*/false);
+    return true;
+  }
+  const std::optional<Contact> contact = contact_of(slot, event.partner);
+  check(contact.has_value(), "a scheduled contact is no contact of the stored motions");
+  check(event.at >= now_, "a contact was scheduled in the past");
+  if (has_stalled(event.at) || is_squeezed(*contact)) return false;
+  count_towards_stall();
+  resolve(*contact, event.at, sink);
+  if (!at(slot).is_dynamic()) predict(slot, /*changed=*/false);
+  return true;
+}
+
+/// How far the body flies between two instants, m.
+template <class S>
+double BasicWorld<S>::hop(Slot slot, const Time<S>& from, const Time<S>& to) const {
+  const DoubleWord2<S>& v = at(slot).motion.velocity;
+  const double speed =
+      std::abs(static_cast<double>(v.x.hi)) + std::abs(static_cast<double>(v.y.hi));
+  return speed * rough_seconds(to, from);
+}
+
+/// Unit vector from a body to the nearest point of another, at now().
+template <class S>
+Vector2 BasicWorld<S>::normal_towards(Slot from, Slot to) const {
+  if (at(from).is_wall()) return -normal_towards(to, from);
+  const Vector2 centre = detail::rounded(position_at(at(from).motion, now_));
+  if (at(to).is_wall()) {
+    const WallState wall = wall_of(to);
+    return (detail::nearest_on_segment(wall.start, wall.end, centre) - centre).normalized();
+  }
+  const RelativeMotion<S> r = relative_motion(at(to).motion, at(from).motion, now_);
+  return detail::rounded(r.position).normalized();
+}
+
+// A disk between two immovable bodies that close in on it bounces without end as the room goes to
+// zero. Told from the stored motions alone: a tiny hop, and an opposite neighbour that closes in.
+template <class S>
+bool BasicWorld<S>::is_squeezed(const Contact& contact) const {
+  constexpr double kRoom = 1e-4;  // of the radius; chosen: ten thousand hits into the squeeze
+  const Slot disk = at(contact.a).is_dynamic() ? contact.a : contact.b;
+  const Slot anvil = disk == contact.a ? contact.b : contact.a;
+  if (at(anvil).is_dynamic()) return false;
+  const double room = kRoom * static_cast<double>(at(disk).radius);
+  if (hop(disk, at(disk).motion.since, now_) > room) return false;
+  const Vector2 normal = normal_towards(disk, anvil);
+  const Vector2 velocity = detail::rounded(at(anvil).motion.velocity);
+  bool squeezed = false;
+  for_each_neighbour(disk, [&](Slot other) {
+    if (squeezed || other == anvil || at(other).is_dynamic() || clearance(disk, other) > room)
+      return;
+    const Vector2 opposite = normal_towards(disk, other);
+    const bool facing = opposite.dot(normal) < 0 &&
+                        std::abs(opposite.x() * normal.y() - opposite.y() * normal.x()) < 1e-9;
+    const Vector2 closing = detail::rounded(at(other).motion.velocity) - velocity;
+    squeezed = facing && closing.dot(normal) > 0;
+  });
+  return squeezed;
+}
+
+// Another body touches `shared` in such a way that it matters which contact comes first.
+template <class S>
+bool BasicWorld<S>::depends_on_order(Slot shared, Slot other, const Vector2& normal) const {
+  const auto weight = [this](Slot slot) {
+    return at(slot).is_dynamic() ? 1 / static_cast<double>(at(slot).mass) : 0.0;
+  };
+  if (!at(shared).is_dynamic()) return false;
+  bool depends = false;
+  for_each_neighbour(shared, [&](Slot third) {
+    if (depends || third == other) return;
+    if (clearance(shared, third) > kSimultaneousHop * reach_of(shared, third)) return;
+    depends = order_matters(
+        normal, normal_towards(shared, third), weight(shared), weight(other), weight(third));
+  });
+  return depends;
+}
+
+// Called after the contact is resolved and its bodies predicted: has one of them just come from
+// another contact, or is it just about to enter one? If so, do the two depend on their order?
+template <class S>
+bool BasicWorld<S>::is_simultaneous(const Contact& contact,
+                                    const Time<S>& before_a,
+                                    const Time<S>& before_b) const {
+  const auto crowded = [this](Slot slot, const Time<S>& before) {
+    if (!at(slot).is_dynamic()) return false;
+    const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
+    if (hop(slot, before, now_) <= tiny) return true;
+    const Event<S>& next = queue_.event_of(slot);
+    return next.kind != EventKind::NeighbourRenewal && hop(slot, now_, next.at) <= tiny;
+  };
+  if (!crowded(contact.a, before_a) && !crowded(contact.b, before_b)) return false;
+  const Vector2 normal = normal_towards(contact.a, contact.b);
+  return depends_on_order(contact.a, contact.b, normal) ||
+         depends_on_order(contact.b, contact.a, -normal);
+}
+
+// From a to b; only its direction matters to the contact law.
+template <class S>
+DoubleWord2<S> BasicWorld<S>::contact_vector(const Contact& contact) const {
+  if (contact.kind == EventKind::DiskWall) {
+    const DoubleWord2<S>& edge = shape(contact.b).edge;
+    const DoubleWord2<S>& q = contact.relative.position;
+    const DoubleWord<S> side = edge.x * q.y - edge.y * q.x;
+    return side.hi > S(0) ? DoubleWord2<S>{edge.y, -edge.x} : DoubleWord2<S>{-edge.y, edge.x};
+  }
+  const DoubleWord2<S> apart = displacement_at<S>(contact.relative, contact.after_reference);
+  return contact.kind == EventKind::DiskDisk ? apart : DoubleWord2<S>{-apart.x, -apart.y};
+}
+
+template <class S>
+void BasicWorld<S>::rebase(Slot slot, const Time<S>& instant) {
+  Body<S>& body = at(slot);
+  if (!rotations_.empty()) {
+    const auto rotation = rotations_.find(slot);
+    if (rotation != rotations_.end()) {
+      rotation->second.angle = turned(rotation->second.angle,
+                                      rotation->second.spin,
+                                      to_instant(body.motion.since),
+                                      to_instant(instant));
+    }
+  }
+  body.motion.position = position_at(body.motion, instant);
+  body.motion.since = instant;
+  ++body.changes;
+  note_digest_stale(slot);
+  note_change(slot, ChangeKind::Moved);
+}
+
+template <class S>
+void BasicWorld<S>::resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink) {
+  Body<S>& a = at(contact.a);
+  Body<S>& b = at(contact.b);
+  const Time<S> before_a = a.motion.since;
+  const Time<S> before_b = b.motion.since;
+  const DoubleWord2<S> velocity{b.motion.velocity.x - a.motion.velocity.x,
+                                b.motion.velocity.y - a.motion.velocity.y};
+  const PairImpulse<S> impulse = elastic_impulse<S>(
+      contact_vector(contact), velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic());
+  const auto kick = [&](Slot slot, const DoubleWord2<S>& delta) {
+    Body<S>& body = at(slot);
+    if (!body.is_dynamic()) return;
+    rebase(slot, instant);
+    body.motion.velocity = {body.motion.velocity.x + delta.x, body.motion.velocity.y + delta.y};
+  };
+  kick(contact.a, impulse.delta_a);
+  kick(contact.b, impulse.delta_b);
+  ++counters_.collisions;
+  if (a.is_dynamic()) predict(contact.a, /*changed=*/true);
+  if (b.is_dynamic()) predict(contact.b, /*changed=*/true);
+  if (sink == nullptr) return;
+  Collision collision = describe(contact, instant, impulse);
+  collision.order_dependent = is_simultaneous(contact, before_a, before_b);
+  sink->on_collision(collision);
+}
+
+template <class S>
+Collision BasicWorld<S>::describe(const Contact& contact,
+                                  const Time<S>& instant,
+                                  const PairImpulse<S>& impulse) const {
+  const Body<S>& a = at(contact.a);
+  const Body<S>& b = at(contact.b);
+  const DoubleWord2<S> centre = position_at(a.motion, instant);
+  Collision collision;
+  collision.sequence = counters_.collisions;
+  collision.instant = to_instant(instant);
+  collision.kind = static_cast<ContactKind>(static_cast<int>(contact.kind) -
+                                            static_cast<int>(EventKind::DiskDisk));
+  collision.a = a.id;
+  collision.b = b.id;
+  collision.normal = {static_cast<double>(impulse.normal_x), static_cast<double>(impulse.normal_y)};
+  collision.point = {static_cast<double>(to_scalar(centre.x + impulse.normal_x * a.radius)),
+                     static_cast<double>(to_scalar(centre.y + impulse.normal_y * a.radius))};
+  collision.impulse = static_cast<double>(impulse.impulse);
+  collision.approach_speed = static_cast<double>(impulse.approach_speed);
+  collision.velocity_a = detail::rounded(a.motion.velocity);
+  collision.velocity_b = detail::rounded(b.motion.velocity);
+  collision.spin_a = rotation_of(contact.a).spin;
+  collision.spin_b = rotation_of(contact.b).spin;
+  return collision;
+}
+
+}  // namespace stoss::engine

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// A body as the event loop sees it.
+
+#include <stoss/engine/motion.hpp>
+#include <stoss/engine/types.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace stoss::engine {
+
+/// Where a body is held; says nothing about ids, may be used again after a removal.
+using Slot = std::int32_t;
+
+enum class BodyType : std::uint8_t { Dynamic = 0, Kinematic = 1, Static = 2, Wall = 3 };
+
+inline BodyType type_of(BodyKind kind) { return static_cast<BodyType>(kind); }
+inline BodyKind kind_of(BodyType type) { return static_cast<BodyKind>(type); }
+
+template <class S>
+struct Body {
+  Motion<S> motion;           ///< of the centre; of a wall's start
+  S radius{};                 ///< m; 0 for a wall
+  S mass{};                   ///< kg; 0 for a wall
+  Id id = kNoId;              ///< kNoId: the slot is free
+  std::uint32_t changes = 0;  ///< of the motion, or of what else predictions depend on
+  BodyType type = BodyType::Dynamic;
+  std::int32_t wall = -1;  ///< index of the wall's shape
+
+  bool is_wall() const { return type == BodyType::Wall; }
+  bool is_dynamic() const { return type == BodyType::Dynamic; }
+};
+
+/// The turning of a disk that turns. Kept apart: no contact law here reads it.
+struct Rotation {
+  double angle = 0;  ///< rad, at the motion's `since`
+  double spin = 0;   ///< rad/s
+};
+
+/// One end of a wall.
+struct WallEnd {
+  Slot wall = -1;
+  int end = 0;  ///< 0: start, 1: end
+  friend bool operator==(const WallEnd&, const WallEnd&) = default;
+};
+
+template <class S>
+struct WallShape {
+  DoubleWord2<S> edge;                           ///< end - start, m
+  std::array<std::vector<WallEnd>, 2> incident;  ///< ends of other walls at the same vertex
+};
+
+}  // namespace stoss::engine

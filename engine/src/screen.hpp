@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// A cheap look in plain doubles, before a kernel is asked: can this pair meet before a given time?
+//
+// For disks, with p, v the relative position and velocity at the present, d the reach:
+//   b = p.v,  c = p.p - d d,  D = (v.v) d d - (p x v)^2,  t >= c / (sqrt(D) - b)
+// For a disk and a wall, with h = e x p, w = e x v, L = |e|:  t >= (|h| - r L) / |w|
+//
+// Every quantity is widened by its error, so "no" is certain and "maybe" costs only a kernel call.
+// No bit of a result depends on it: tests/engine/broad_phase_test.cpp compares with all pairs.
+//
+// Source: interval filters as in CGAL's filtered predicates; Deviation: static relative bounds.
+// Accuracy: the relative slack below is a million times the rounding of the terms that it covers.
+
+#include "body.hpp"
+
+#include <stoss/engine/instant.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stoss::engine {
+
+/// By how much a kernel's answer may differ from the exact one, as a part of the contact distance,
+/// and more. Chosen: far above the 2^-50 (float: 2^-18) that rounding costs, far below what would
+/// ask kernels in vain.
+template <class S>
+inline constexpr double kScreenSlack = 1e-9;
+template <>
+inline constexpr double kScreenSlack<float> = 3e-5;
+
+/// The rounding of a position in S, as a part of the way flown, and more: a hundred times 2^-53 for
+/// the sums here; float worlds compute in double words of 2^-46.
+template <class S>
+inline constexpr double kFlightSlack = 1e-14;
+template <>
+inline constexpr double kFlightSlack<float> = 4e-12;
+
+/// Position and velocity at the present, in doubles, and how far off the position may be.
+struct Glance {
+  double x = 0;
+  double y = 0;
+  double x_low = 0;  ///< kept apart: far from the origin the difference of two bodies needs it
+  double y_low = 0;
+  double vx = 0;
+  double vy = 0;
+  double error = 0;  ///< m
+};
+
+/// `later` - `earlier` to about 2^-53 s or 2^-52 of itself.
+inline double rough_seconds(const Instant& later, const Instant& earlier) {
+  const Int128 n = ticks(later) - ticks(earlier);
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(n >> 64));
+  const auto part =
+      static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(n) >> 11));
+  return whole + part * 0x1p-53;
+}
+inline double rough_seconds(const WideInstant& later, const WideInstant& earlier) {
+  return rough_seconds(later.coarse, earlier.coarse);
+}
+
+template <class S>
+Glance glance(const Motion<S>& motion, const Time<S>& now) {
+  Glance g;
+  g.vx = static_cast<double>(motion.velocity.x.hi) + static_cast<double>(motion.velocity.x.lo);
+  g.vy = static_cast<double>(motion.velocity.y.hi) + static_cast<double>(motion.velocity.y.lo);
+  const double elapsed = rough_seconds(now, motion.since);
+  const double flown_x = g.vx * elapsed;
+  const double flown_y = g.vy * elapsed;
+  g.x = static_cast<double>(motion.position.x.hi);
+  g.y = static_cast<double>(motion.position.y.hi);
+  g.x_low = static_cast<double>(motion.position.x.lo) + flown_x;
+  g.y_low = static_cast<double>(motion.position.y.lo) + flown_y;
+  constexpr double kClock = 1e-14;  // s; a hundred times the rounding of `elapsed`
+  const double speed = std::abs(g.vx) + std::abs(g.vy);
+  g.error = kFlightSlack<S> * (std::abs(flown_x) + std::abs(flown_y)) + kClock * speed;
+  return g;
+}
+
+/// False if disks with these motions certainly do not meet within `horizon` seconds from now.
+/// `slack`: kScreenSlack of the arithmetic.
+inline bool disks_may_meet(
+    const Glance& a, const Glance& b, double reach, double horizon, double slack) {
+  const double px = (b.x - a.x) + (b.x_low - a.x_low);
+  const double py = (b.y - a.y) + (b.y_low - a.y_low);
+  const double vx = b.vx - a.vx;
+  const double vy = b.vy - a.vy;
+  const double off = a.error + b.error + slack * (std::abs(px) + std::abs(py) + reach);
+  const double speed = std::abs(vx) + std::abs(vy);
+  const double approach = -(px * vx + py * vy) + off * speed;
+  if (approach < 0) return false;
+  const double v2 = vx * vx + vy * vy;
+  const double near_reach = reach + off;
+  const double moment = std::abs(px * vy - py * vx) - off * speed;
+  const double disc =
+      v2 * near_reach * near_reach * (1 + slack) - (moment > 0 ? moment * moment : 0.0);
+  if (disc < 0) return false;
+  const double gap2 = px * px + py * py - near_reach * near_reach;
+  const double slack2 = off * (std::abs(px) + std::abs(py) + near_reach);
+  // Written so that a NaN from overflow asks the kernel.
+  return !(gap2 - slack2 > horizon * (approach + std::sqrt(disc)) * (1 + slack));
+}
+
+/// False if the disk certainly does not meet the wall within `horizon` seconds from now. `edge` in
+/// m.
+inline bool disk_may_meet_wall(const Glance& disk,
+                               const Glance& wall,
+                               double radius,
+                               double edge_x,
+                               double edge_y,
+                               double horizon,
+                               double slack) {
+  const double px = (disk.x - wall.x) + (disk.x_low - wall.x_low);
+  const double py = (disk.y - wall.y) + (disk.y_low - wall.y_low);
+  const double vx = disk.vx - wall.vx;
+  const double vy = disk.vy - wall.vy;
+  const double length = std::sqrt(edge_x * edge_x + edge_y * edge_y);
+  const double off = disk.error + wall.error + slack * (std::abs(px) + std::abs(py) + radius);
+  const double h = edge_x * py - edge_y * px;
+  const double w = edge_x * vy - edge_y * vx;
+  const double slack_w = slack * length * (std::abs(vx) + std::abs(vy));
+  const double distance = std::abs(h) - length * (radius + off) * (1 + slack);
+  const double closing = (h > 0 ? -w : w) + slack_w;
+  return !(distance > horizon * std::max(closing, 0.0) * (1 + slack));
+}
+
+}  // namespace stoss::engine

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bytes.hpp"
+#include "world_core.hpp"
+
+#include <stoss/engine/motion.hpp>
+#include <stoss/engine/world.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace stoss::engine {
+
+World::World(const WorldOptions& options) : core_(make_core(options)) {}
+World::World(std::unique_ptr<WorldCore> core) : core_(std::move(core)) {}
+World::World(const World& other) : core_(other.core_->clone()) {}
+World& World::operator=(const World& other) {
+  if (this != &other) core_ = other.core_->clone();
+  return *this;
+}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+Instant World::now() const { return core_->now(); }
+Arithmetic World::arithmetic() const { return core_->arithmetic(); }
+BroadPhaseKind World::broad_phase() const { return core_->broad_phase(); }
+std::size_t World::disk_count() const { return core_->disk_count(); }
+std::size_t World::wall_count() const { return core_->wall_count(); }
+Counters World::counters() const { return core_->counters(); }
+Conserved World::conserved() const { return core_->conserved(); }
+
+Outcome<std::vector<Id>> World::spawn(const SpawnRequest& request) { return core_->spawn(request); }
+Outcome<Done> World::remove(std::span<const Id> ids) { return core_->remove(ids); }
+Outcome<Done> World::set_velocity(std::span<const VectorFor> velocities) {
+  return core_->set_velocity(velocities);
+}
+Outcome<Done> World::apply_impulse(std::span<const VectorFor> impulses) {
+  return core_->apply_impulse(impulses);
+}
+void World::nudge(std::uint64_t seed) { core_->nudge(seed); }
+Outcome<AdvanceReport> World::advance_to(const Instant& until,
+                                         CollisionSink* sink,
+                                         std::uint64_t max_events) {
+  return core_->advance_to(until, sink, max_events);
+}
+
+bool World::contains(Id id) const { return core_->contains(id); }
+Outcome<BodyState> World::state(Id id) const { return core_->state(id); }
+Outcome<WallState> World::wall(Id id) const { return core_->wall(id); }
+void World::for_each_disk(const std::function<void(const BodyState&)>& visit) const {
+  core_->for_each_disk(visit);
+}
+void World::for_each_wall(const std::function<void(const WallState&)>& visit) const {
+  core_->for_each_wall(visit);
+}
+std::vector<Id> World::region(const Vector2& low, const Vector2& high) const {
+  return core_->region(low, high);
+}
+std::vector<Near> World::nearest(const Vector2& point, std::size_t count) const {
+  return core_->nearest(point, count);
+}
+std::optional<RayHit> World::ray(const Vector2& origin,
+                                 const Vector2& direction,
+                                 double length_max) const {
+  return core_->ray(origin, direction, length_max);
+}
+
+Census World::census() const { return core_->census(); }
+
+Outcome<MotionRecord> World::motion(Id id) const { return core_->motion(id); }
+Outcome<BodyRecord> World::body(Id id) const { return core_->body(id); }
+std::vector<Id> World::ids() const { return core_->ids(); }
+std::vector<Change> World::drain_changes() { return core_->drain_changes(); }
+
+std::vector<std::byte> World::serialise() const { return core_->serialise(); }
+std::uint64_t World::state_hash() const { return core_->state_hash(); }
+
+Outcome<World> World::deserialise(std::span<const std::byte> bytes, BroadPhaseKind broad_phase) {
+  ByteSource source(bytes);
+  source.word();  // magic and format are checked by restore()
+  source.word();
+  const std::uint64_t arithmetic = source.word();
+  const Reject unknown{.code = Code::InvalidArgument,
+                       .field = "bytes",
+                       .reason = "these are not a world's bytes, or of an arithmetic not built in"};
+  if (arithmetic > static_cast<std::uint64_t>(Arithmetic::LongDouble)) return unknown;
+  World world(WorldOptions{
+      .start = {}, .arithmetic = static_cast<Arithmetic>(arithmetic), .broad_phase = broad_phase});
+  if (const auto restored = world.core_->restore(bytes); !restored) return restored.reject();
+  return world;
+}
+
+const char* to_string(Code code) {
+  switch (code) {
+    case Code::Ok:
+      return "OK";
+    case Code::InvalidArgument:
+      return "INVALID_ARGUMENT";
+    case Code::NotFound:
+      return "NOT_FOUND";
+    case Code::AlreadyExists:
+      return "ALREADY_EXISTS";
+    case Code::Overlap:
+      return "OVERLAP";
+    case Code::FailedPrecondition:
+      return "FAILED_PRECONDITION";
+    case Code::ResourceExhausted:
+      return "RESOURCE_EXHAUSTED";
+    case Code::Unimplemented:
+      return "UNIMPLEMENTED";
+    case Code::Unavailable:
+      return "UNAVAILABLE";
+    case Code::DeadlinePassed:
+      return "DEADLINE_PASSED";
+    case Code::Internal:
+      return "INTERNAL";
+  }
+  return "INTERNAL";
+}
+
+std::optional<Instant> offset_by(const Instant& from, double seconds) {
+  if (!std::isfinite(seconds)) return std::nullopt;
+  if (seconds >= 0) return later_by<double>(from, seconds, 0.0);
+  const auto mirrored = later_by<double>(instant_from_ticks(-ticks(from)), -seconds, 0.0);
+  if (!mirrored) return std::nullopt;
+  return instant_from_ticks(-ticks(*mirrored));
+}
+
+double seconds_between(const Instant& earlier, const Instant& later) {
+  return difference<double>(later, earlier).hi;
+}
+
+namespace {
+
+template <class S>
+Vector2 evaluate_in(const MotionRecord& record, const Instant& instant) {
+  const DoubleWord2<S> p = position_at(from_record<S>(record), from_instant<Time<S>>(instant));
+  return {static_cast<double>(to_scalar(p.x)), static_cast<double>(to_scalar(p.y))};
+}
+
+}  // namespace
+
+Vector2 evaluate(const MotionRecord& motion, Arithmetic arithmetic, const Instant& instant) {
+  switch (arithmetic) {
+    case Arithmetic::Float:
+      return evaluate_in<float>(motion, instant);
+    case Arithmetic::Double:
+      return evaluate_in<double>(motion, instant);
+    case Arithmetic::LongDouble:
+    case Arithmetic::DoubleDouble:
+    case Arithmetic::Float128:
+      return evaluate_in<long double>(motion, instant);
+  }
+  return evaluate_in<double>(motion, instant);
+}
+
+double turned(double angle, double spin, const Instant& since, const Instant& instant) {
+  return angle + spin * difference<double>(instant, since).hi;
+}
+
+}  // namespace stoss::engine

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What stands behind a World: one virtual face over the arithmetics, called once a command or tick
+// and never inside the event loop. See world.hpp for what each call promises.
+
+#include <stoss/engine/world.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace stoss::engine {
+
+class WorldCore {
+ public:
+  virtual ~WorldCore() = default;
+  virtual std::unique_ptr<WorldCore> clone() const = 0;
+
+  virtual Instant now() const = 0;
+  virtual Arithmetic arithmetic() const = 0;
+  virtual BroadPhaseKind broad_phase() const = 0;
+  virtual std::size_t disk_count() const = 0;
+  virtual std::size_t wall_count() const = 0;
+  virtual Counters counters() const = 0;
+  virtual Conserved conserved() const = 0;
+
+  virtual Outcome<std::vector<Id>> spawn(const SpawnRequest& request) = 0;
+  virtual Outcome<Done> remove(std::span<const Id> ids) = 0;
+  virtual Outcome<Done> set_velocity(std::span<const VectorFor> velocities) = 0;
+  virtual Outcome<Done> apply_impulse(std::span<const VectorFor> impulses) = 0;
+  virtual void nudge(std::uint64_t seed) = 0;
+  virtual Outcome<AdvanceReport> advance_to(const Instant& until,
+                                            CollisionSink* sink,
+                                            std::uint64_t max_events) = 0;
+
+  virtual bool contains(Id id) const = 0;
+  virtual Outcome<BodyState> state(Id id) const = 0;
+  virtual Outcome<WallState> wall(Id id) const = 0;
+  virtual void for_each_disk(const std::function<void(const BodyState&)>& visit) const = 0;
+  virtual void for_each_wall(const std::function<void(const WallState&)>& visit) const = 0;
+  virtual std::vector<Id> region(const Vector2& low, const Vector2& high) const = 0;
+  virtual std::vector<Near> nearest(const Vector2& point, std::size_t count) const = 0;
+  virtual std::optional<RayHit> ray(const Vector2& origin,
+                                    const Vector2& direction,
+                                    double length_max) const = 0;
+
+  virtual Census census() const = 0;
+  virtual Outcome<MotionRecord> motion(Id id) const = 0;
+  virtual Outcome<BodyRecord> body(Id id) const = 0;
+  virtual std::vector<Id> ids() const = 0;
+  virtual std::vector<Change> drain_changes() = 0;
+
+  virtual std::vector<std::byte> serialise() const = 0;
+  virtual Outcome<Done> restore(std::span<const std::byte> bytes) = 0;
+  virtual std::uint64_t state_hash() const = 0;
+};
+
+/// A core for Float, Double or LongDouble; null for an arithmetic that this library has not.
+std::unique_ptr<WorldCore> make_core(const WorldOptions& options);
+
+}  // namespace stoss::engine

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <stoss/idl/scene_file.hpp>
+#include <stoss/translate/basics.hpp>
+#include <stoss/translate/scene.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace stoss::translate {
+namespace {
+
+using engine::Code;
+using engine::Reject;
+
+engine::Vector2 vector_of(const Vector2& v) { return {v.x(), v.y()}; }
+
+std::optional<engine::BodyKind> kind_of(Disk::Kind kind) {
+  switch (kind) {
+    case Disk::DYNAMIC:
+      return engine::BodyKind::Dynamic;
+    case Disk::KINEMATIC:
+      return engine::BodyKind::Kinematic;
+    case Disk::STATIC:
+      return engine::BodyKind::Static;
+    case Disk_Kind_Disk_Kind_INT_MIN_SENTINEL_DO_NOT_USE_:
+    case Disk_Kind_Disk_Kind_INT_MAX_SENTINEL_DO_NOT_USE_:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+Reject unimplemented(std::string field, std::string reason) {
+  return {.code = Code::Unimplemented, .field = std::move(field), .reason = std::move(reason)};
+}
+
+engine::DiskSpec spec_of(const Disk& disk, engine::BodyKind kind) {
+  return {.id = disk.id(),
+          .kind = kind,
+          .position = vector_of(disk.position()),
+          .velocity = vector_of(disk.velocity()),
+          .radius = disk.radius(),
+          .mass = disk.has_mass() ? disk.mass() : 1,
+          .angle = disk.angle(),
+          .spin = disk.spin()};
+}
+
+engine::WallSpec spec_of(const Wall& wall) {
+  return {.id = wall.id(),
+          .start = vector_of(wall.start()),
+          .end = vector_of(wall.end()),
+          .velocity = vector_of(wall.velocity())};
+}
+
+}  // namespace
+
+std::span<const std::string_view> engine_effects() {
+  // Every effect of the scene format that has an exact treatment; each is one file of the engine.
+  return {};
+}
+
+std::optional<Reject> unsupported(const Scene& scene) {
+  const auto known = engine_effects();
+  for (const std::string& name : idl::effect_names(scene)) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      return unimplemented("effects." + name, "this version has no exact " + name);
+    }
+  }
+  if (!scene.zones().empty()) return unimplemented("zones", "this version has no zones");
+  if (scene.period().x() != 0) return unimplemented("period.x", "this version has open space only");
+  if (scene.period().y() != 0) return unimplemented("period.y", "this version has open space only");
+  return std::nullopt;
+}
+
+engine::Outcome<SceneBodies> bodies_of(const Scene& scene) {
+  if (auto reject = unsupported(scene)) return *std::move(reject);
+  SceneBodies bodies;
+  bodies.start = {scene.start().seconds(), scene.start().fraction()};
+  bodies.disks.reserve(static_cast<std::size_t>(scene.disks_size()));
+  bodies.disk_names.reserve(bodies.disks.capacity());
+  for (const Disk& disk : scene.disks()) {
+    const auto kind = kind_of(disk.kind());
+    if (!kind) {
+      return Reject{.code = Code::InvalidArgument,
+                    .field = "disks[" + std::to_string(bodies.disks.size()) + "].kind",
+                    .index = bodies.disks.size(),
+                    .body = disk.id(),
+                    .reason = "is unknown"};
+    }
+    bodies.disks.push_back(spec_of(disk, *kind));
+    bodies.disk_names.push_back(disk.name());
+  }
+  for (const Wall& wall : scene.walls()) {
+    bodies.walls.push_back(spec_of(wall));
+    bodies.wall_names.push_back(wall.name());
+  }
+  return bodies;
+}
+
+engine::Outcome<SceneWorld> make_world(const SceneBodies& bodies, const WorldChoice& choice) {
+  if (!engine::in_range(bodies.start)) {
+    return Reject{
+        .code = Code::InvalidArgument, .field = "start", .reason = "is beyond the end of time"};
+  }
+  if (choice.arithmetic == engine::Arithmetic::DoubleDouble ||
+      choice.arithmetic == engine::Arithmetic::Float128) {
+    return unimplemented("arithmetic",
+                         std::string(name_of(choice.arithmetic)) + " is not in this program");
+  }
+  engine::World world(
+      {.start = bodies.start, .arithmetic = choice.arithmetic, .broad_phase = choice.broad_phase});
+  auto made = world.spawn({bodies.disks, bodies.walls});
+  if (!made) return made.reject();
+  return SceneWorld{std::move(world), std::move(made).value()};
+}
+
+engine::Outcome<engine::World> make_world(const Scene& scene, const WorldChoice& choice) {
+  const auto bodies = bodies_of(scene);
+  if (!bodies) return bodies.reject();
+  auto made = make_world(bodies.value(), choice);
+  if (!made) return made.reject();
+  return std::move(made).value().world;
+}
+
+}  // namespace stoss::translate

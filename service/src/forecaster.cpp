@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "forecaster.hpp"
+
+#include "questions.hpp"
+#include "thread_name.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace stoss::service {
+namespace {
+
+using engine::Code;
+using engine::Reject;
+
+/// Events between two looks at whether the daemon is stopping: some ten milliseconds.
+constexpr std::uint64_t kSlice = 10'000;
+
+}  // namespace
+
+bool Forecaster::has_room() const {
+  const std::lock_guard lock(mutex_);
+  return !stopping_ && waiting_.size() + (busy_ ? 1 : 0) < kForecastsMax;
+}
+
+void Forecaster::submit(Forecast forecast) {
+  const std::lock_guard lock(mutex_);
+  waiting_.push_back(std::move(forecast));
+  if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+  changed_.notify_one();
+}
+
+void Forecaster::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    changed_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+bool Forecaster::stopping() const {
+  const std::lock_guard lock(mutex_);
+  return stopping_;
+}
+
+void Forecaster::run() {
+  name_thread("forecaster");
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    Forecast forecast = std::move(waiting_.front());
+    waiting_.pop_front();
+    busy_ = true;
+    lock.unlock();
+    AnswerItem item{
+        forecast.query.spec.request, forecast.moment, Reject{}, std::move(forecast.query.ticket)};
+    auto rows = look_ahead(forecast);
+    if (rows) {
+      item.content = std::move(rows).value();
+    } else {
+      item.content = rows.reject();
+    }
+    outbox_.push(std::move(item));
+    lock.lock();
+    busy_ = false;
+  }
+}
+
+engine::Outcome<Rows> Forecaster::look_ahead(Forecast& forecast) const {
+  std::uint64_t left = kForecastEventsMax;
+  for (;;) {
+    if (stopping())
+      return Reject{.code = Code::Unavailable, .field = "", .reason = "the daemon is stopping"};
+    const auto report =
+        forecast.world.advance_to(forecast.moment.at, nullptr, std::min(left, kSlice));
+    if (!report) return report.reject();
+    if (report.value().stop == engine::Stop::Reached) break;
+    if (report.value().stop == engine::Stop::Stalled) {
+      return Reject{.code = Code::FailedPrecondition,
+                    .field = "at",
+                    .body = report.value().stalled,
+                    .reason = "events crowd into one instant before that"};
+    }
+    left -= std::min(left, report.value().events);
+    if (left == 0) {
+      return Reject{.code = Code::ResourceExhausted,
+                    .field = "at",
+                    .reason = "more than " + std::to_string(kForecastEventsMax) +
+                              " events lie before that instant"};
+    }
+  }
+  return answer(forecast.world, forecast.query.spec);
+}
+
+}  // namespace stoss::service

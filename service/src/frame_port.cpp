@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame_port.hpp"
+
+#include <stoss/idl/sequence.hpp>
+
+#include <algorithm>
+#include <span>
+
+namespace stoss::service {
+
+void FramePort::publish(const Picture& picture) {
+  const int readers = writer_.readers();
+  const bool is_new =
+      last_ != picture.moment() || last_scene_ != picture.scene_version() || readers > readers_;
+  readers_ = readers;
+  if (readers == 0 || !is_new) return;
+  last_ = picture.moment();
+  last_scene_ = picture.scene_version();
+  fill(picture);
+  const std::size_t rows = id_.size();
+  const std::size_t chunks =
+      std::max<std::size_t>(1, (rows + stoss_v1_MAX_FRAME_BODIES - 1) / stoss_v1_MAX_FRAME_BODIES);
+  drop_chunks_from(static_cast<std::uint32_t>(chunks));
+  const auto& angle = angle_.padded(rows);
+  const auto& spin = spin_.padded(rows);
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+    const std::size_t first = chunk * stoss_v1_MAX_FRAME_BODIES;
+    const std::size_t count = std::min<std::size_t>(stoss_v1_MAX_FRAME_BODIES, rows - first);
+    const auto slice = [&](const auto& column) {
+      return std::span(column).subspan(column.empty() ? 0 : first, column.empty() ? 0 : count);
+    };
+    wire::FrameChunk sample{};
+    sample.chunk = static_cast<std::uint32_t>(chunk);
+    sample.chunks = static_cast<std::uint32_t>(chunks);
+    sample.epoch = last_->epoch;
+    sample.tick = last_->tick;
+    sample.at = translate::to_wire(last_->at);
+    idl::lend(sample.id, slice(id_));
+    idl::lend(sample.x, slice(x_));
+    idl::lend(sample.y, slice(y_));
+    idl::lend(sample.vx, slice(vx_));
+    idl::lend(sample.vy, slice(vy_));
+    idl::lend(sample.angle, slice(angle));
+    idl::lend(sample.spin, slice(spin));
+    static_cast<void>(writer_.write(sample));
+  }
+  ++count_;
+}
+
+void FramePort::fill(const Picture& picture) {
+  id_.clear();
+  for (auto* column : {&x_, &y_, &vx_, &vy_}) column->clear();
+  angle_.clear();
+  spin_.clear();
+  for (const Picture::Body& body : picture.bodies()) {
+    if (body.record.is_wall) continue;
+    const engine::BodyState state = picture.state_of(body);
+    angle_.append(id_.size(), state.angle);
+    spin_.append(id_.size(), state.spin);
+    id_.push_back(state.id);
+    x_.push_back(state.position.x());
+    y_.push_back(state.position.y());
+    vx_.push_back(state.velocity.x());
+    vy_.push_back(state.velocity.y());
+  }
+}
+
+void FramePort::drop_chunks_from(std::uint32_t chunks) {
+  for (std::uint32_t chunk = chunks; chunk < chunks_; ++chunk) {
+    wire::FrameChunk key{};
+    key.chunk = chunk;
+    static_cast<void>(writer_.dispose(key));
+  }
+  chunks_ = chunks;
+}
+
+void BodyPort::assign(const WatchRecord& record, const Picture& picture) {
+  slots_[record.slot] = record.id;
+  if (record.id != engine::kNoId) {
+    write(record.slot, picture);
+    return;
+  }
+  wire::BodyState key{};
+  key.slot = record.slot;
+  static_cast<void>(writer_.dispose(key));
+}
+
+void BodyPort::publish(const Picture& picture) {
+  if (writer_.readers() == 0) return;
+  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
+    if (slots_[slot] != engine::kNoId) write(slot, picture);
+  }
+}
+
+void BodyPort::write(std::uint32_t slot, const Picture& picture) {
+  const Picture::Body* const body = picture.find(slots_[slot]);
+  if (body == nullptr) return;
+  wire::BodyState sample{};
+  sample.slot = slot;
+  sample.epoch = picture.moment().epoch;
+  sample.id = slots_[slot];
+  sample.at = translate::to_wire(picture.moment().at);
+  if (body->record.is_wall) {
+    const engine::WallState wall = picture.wall_of(*body);
+    sample.kind = stoss_v1_KIND_WALL;
+    sample.x = wall.start.x();
+    sample.y = wall.start.y();
+    sample.vx = wall.velocity.x();
+    sample.vy = wall.velocity.y();
+  } else {
+    const engine::BodyState state = picture.state_of(*body);
+    sample.kind = idl::wire_value(translate::to_wire(state.kind));
+    sample.x = state.position.x();
+    sample.y = state.position.y();
+    sample.vx = state.velocity.x();
+    sample.vy = state.velocity.y();
+    sample.angle = state.angle;
+    sample.spin = state.spin;
+    sample.radius = state.radius;
+  }
+  static_cast<void>(writer_.write(sample));
+}
+
+}  // namespace stoss::service

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame topic (all disks at a tick) and the body topic (watched bodies, one by one), both at a
+// rate of their own in real time.
+#pragma once
+
+#include "clock.hpp"
+#include "picture.hpp"
+#include "topics.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace stoss::service {
+
+class FramePort {
+ public:
+  FramePort(const dds::Publisher& publisher, const Topics& topics)
+      : writer_(idl::make_writer(publisher, topics.frame, idl::kFrameTopic)) {}
+
+  /// Publishes the picture if somebody reads it, and it is another one than the last time or there
+  /// are more readers than then.
+  void publish(const Picture& picture);
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] std::uint64_t failures() const { return writer_.failures(); }
+
+ private:
+  void fill(const Picture& picture);
+  void drop_chunks_from(std::uint32_t chunks);
+
+  dds::Writer<wire::FrameChunk> writer_;
+  std::uint64_t count_ = 0;
+  std::uint32_t chunks_ = 0;
+  int readers_ = 0;
+  std::optional<Moment> last_;
+  std::uint64_t last_scene_ = 0;
+  std::vector<std::uint64_t> id_;
+  std::vector<double> x_, y_, vx_, vy_;
+  translate::SparseColumn angle_, spin_;
+};
+
+class BodyPort {
+ public:
+  BodyPort(const dds::Publisher& publisher, const Topics& topics)
+      : writer_(idl::make_writer(publisher, topics.body, idl::kBodyTopic)) {}
+
+  /// A slot was given to a body, or is empty from now on.
+  void assign(const WatchRecord& record, const Picture& picture);
+  /// Publishes every watched body if there is a reader.
+  void publish(const Picture& picture);
+
+  [[nodiscard]] std::uint64_t failures() const { return writer_.failures(); }
+
+ private:
+  void write(std::uint32_t slot, const Picture& picture);
+
+  dds::Writer<wire::BodyState> writer_;
+  std::array<engine::Id, stoss_v1_MAX_WATCHED> slots_{};
+};
+
+}  // namespace stoss::service

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture.hpp"
+
+#include <stoss/engine/motion.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace stoss::service {
+namespace {
+
+// Velocities are constant between events; their high words are what the engine itself reports.
+engine::Vector2 velocity_of(const engine::MotionRecord& motion) {
+  return {motion.vx.high, motion.vy.high};
+}
+
+// The engine's own order: the start is evaluated, then the edge is added, then it is rounded once.
+template <class S>
+engine::Vector2 end_at(const Picture::Body& body, const engine::Instant& instant) {
+  const engine::DoubleWord2<S> start = engine::position_at(
+      engine::from_record<S>(body.motion), engine::from_instant<engine::Time<S>>(instant));
+  const auto rounded = [](const engine::DoubleWord<S>& value) {
+    return static_cast<double>(to_scalar(value));
+  };
+  return {rounded(start.x + engine::from_split<S>(body.record.edge_x)),
+          rounded(start.y + engine::from_split<S>(body.record.edge_y))};
+}
+
+engine::Vector2 end_at(const Picture::Body& body,
+                       engine::Arithmetic arithmetic,
+                       const engine::Instant& instant) {
+  switch (arithmetic) {
+    case engine::Arithmetic::Float:
+      return end_at<float>(body, instant);
+    case engine::Arithmetic::Double:
+      return end_at<double>(body, instant);
+    case engine::Arithmetic::LongDouble:
+    case engine::Arithmetic::DoubleDouble:
+    case engine::Arithmetic::Float128:
+      return end_at<long double>(body, instant);
+  }
+  return end_at<double>(body, instant);
+}
+
+}  // namespace
+
+void Picture::begin(const EpochRecord& record) {
+  bodies_.clear();
+  index_.clear();
+  names_.clear();
+  bodies_.reserve(record.bodies.size());
+  index_.reserve(record.bodies.size());
+  for (const BodyChange& body : record.bodies) put(body);
+  name(record.names);
+  moment_ = record.moment;
+  state_hash_ = record.state_hash;
+  ++scene_version_;
+}
+
+void Picture::apply(const TickRecord& record) {
+  for (const BodyChange& change : record.changes) {
+    if (change.kind == engine::ChangeKind::Removed) {
+      remove(change.motion.id);
+    } else {
+      put(change);
+    }
+  }
+  name(record.names);
+  moment_ = record.moment;
+  if (!record.changes.empty()) state_hash_ = record.state_hash;
+}
+
+void Picture::put(const BodyChange& change) {
+  const auto [entry, is_new] = index_.try_emplace(change.motion.id, bodies_.size());
+  if (is_new) {
+    bodies_.push_back({change.motion, change.body});
+  } else {
+    bodies_[entry->second] = {change.motion, change.body};
+  }
+  if (is_new || change.body.is_wall) ++scene_version_;
+}
+
+void Picture::remove(engine::Id id) {
+  const auto entry = index_.find(id);
+  if (entry == index_.end()) return;
+  const std::size_t hole = entry->second;
+  index_.erase(entry);
+  if (hole + 1 != bodies_.size()) {
+    bodies_[hole] = bodies_.back();
+    index_[bodies_[hole].motion.id] = hole;
+  }
+  bodies_.pop_back();
+  names_.erase(id);
+  ++scene_version_;
+}
+
+void Picture::name(const std::vector<NamedBody>& names) {
+  for (const auto& [id, text] : names) {
+    if (index_.contains(id)) names_[id] = text;
+  }
+}
+
+std::vector<const Picture::Body*> Picture::ordered() const {
+  std::vector<const Body*> order;
+  order.reserve(bodies_.size());
+  for (const Body& body : bodies_) order.push_back(&body);
+  std::sort(order.begin(), order.end(), [](const Body* a, const Body* b) {
+    return a->motion.id < b->motion.id;
+  });
+  return order;
+}
+
+const Picture::Body* Picture::find(engine::Id id) const {
+  const auto entry = index_.find(id);
+  return entry == index_.end() ? nullptr : &bodies_[entry->second];
+}
+
+engine::BodyState Picture::state_of(const Body& body) const {
+  const engine::MotionRecord& motion = body.motion;
+  return {.id = motion.id,
+          .kind = body.record.kind,
+          .instant = moment_.at,
+          .position = engine::evaluate(motion, arithmetic_, moment_.at),
+          .velocity = velocity_of(motion),
+          .angle = engine::turned(motion.angle, motion.spin, motion.since, moment_.at),
+          .spin = motion.spin,
+          .radius = body.record.radius};
+}
+
+engine::WallState Picture::wall_of(const Body& body) const {
+  const engine::MotionRecord& motion = body.motion;
+  return {.id = motion.id,
+          .instant = moment_.at,
+          .start = engine::evaluate(motion, arithmetic_, moment_.at),
+          .end = end_at(body, arithmetic_, moment_.at),
+          .velocity = velocity_of(motion)};
+}
+
+}  // namespace stoss::service

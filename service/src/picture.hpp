@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The publisher's own copy of every stored motion, kept up by the records of the world's thread.
+// Large answers and frames are made from it, so that they cost the world's thread nothing. It
+// evaluates motions with the engine's own code, to the same bits.
+#pragma once
+
+#include "records.hpp"
+
+#include <stoss/engine/types.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace stoss::service {
+
+class Picture {
+ public:
+  explicit Picture(engine::Arithmetic arithmetic) : arithmetic_(arithmetic) {}
+
+  void begin(const EpochRecord& record);
+  void apply(const TickRecord& record);
+
+  [[nodiscard]] const Moment& moment() const { return moment_; }
+  /// 0 when the record of the last change came without.
+  [[nodiscard]] std::uint64_t state_hash() const { return state_hash_; }
+  [[nodiscard]] engine::Arithmetic arithmetic() const { return arithmetic_; }
+  [[nodiscard]] std::size_t size() const { return bodies_.size(); }
+  /// Raised whenever a body comes or goes, or a wall changes its way.
+  [[nodiscard]] std::uint64_t scene_version() const { return scene_version_; }
+
+  struct Body {
+    engine::MotionRecord motion;
+    engine::BodyRecord record;
+  };
+  /// In no order.
+  [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
+  /// In the order of ids.
+  [[nodiscard]] std::vector<const Body*> ordered() const;
+  /// Null when there is none.
+  [[nodiscard]] const Body* find(engine::Id id) const;
+  [[nodiscard]] const std::unordered_map<engine::Id, std::string>& names() const { return names_; }
+
+  /// A disk at moment().at. REQUIRES: it is one.
+  [[nodiscard]] engine::BodyState state_of(const Body& body) const;
+  [[nodiscard]] engine::WallState wall_of(const Body& body) const;
+
+ private:
+  void put(const BodyChange& change);
+  void remove(engine::Id id);
+  void name(const std::vector<NamedBody>& names);
+
+  engine::Arithmetic arithmetic_;
+  Moment moment_;
+  std::uint64_t state_hash_ = 0;
+  std::uint64_t scene_version_ = 0;
+  std::vector<Body> bodies_;
+  std::unordered_map<engine::Id, std::size_t> index_;
+  std::unordered_map<engine::Id, std::string> names_;
+};
+
+}  // namespace stoss::service

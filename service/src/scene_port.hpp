@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene topic: what changes rarely, kept for late joiners, in chunks.
+#pragma once
+
+#include "clock.hpp"
+#include "picture.hpp"
+#include "topics.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stoss::service {
+
+/// Changes of the scene are gathered for this long before it is published again.
+inline constexpr Nanoseconds kSceneInterval{250'000'000};
+
+class ScenePort {
+ public:
+  ScenePort(const dds::Publisher& publisher, const Topics& topics, std::string world)
+      : writer_(idl::make_writer(publisher, topics.scene, idl::kSceneTopic)),
+        world_(std::move(world)) {}
+
+  /// The scene's own name, for people.
+  void set_scene_name(std::string name) { scene_name_ = std::move(name); }
+  /// Publishes the scene if it has changed, and not sooner than kSceneInterval after the last time.
+  void publish_if_due(const Picture& picture, Nanoseconds now);
+
+  [[nodiscard]] std::uint64_t version() const { return version_; }
+  [[nodiscard]] std::uint64_t failures() const { return writer_.failures(); }
+
+ private:
+  /// The rows of all chunks; a chunk is a slice of each.
+  struct Columns {
+    std::vector<std::uint64_t> disk_id;
+    std::vector<std::uint8_t> disk_kind;
+    std::vector<double> disk_radius, disk_mass;
+    std::vector<std::uint64_t> wall_id;
+    std::vector<double> start_x, start_y, end_x, end_y, vx, vy;
+    std::vector<wire::Name> names;
+  };
+
+  void publish(const Picture& picture);
+  static Columns columns_of(const Picture& picture);
+  void write_chunk(const Picture& picture,
+                   const Columns& columns,
+                   std::uint32_t chunk,
+                   std::uint32_t chunks);
+
+  dds::Writer<wire::SceneChunk> writer_;
+  std::string world_;
+  std::string scene_name_;
+  std::uint64_t version_ = 0;
+  std::uint64_t published_ = 0;  ///< the picture's scene_version that was published
+  std::uint32_t chunks_ = 0;
+  Nanoseconds next_{0};
+};
+
+}  // namespace stoss::service

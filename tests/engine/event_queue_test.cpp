@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The event queue against a sorted list, with ties of every rank.
+#include "event_queue.hpp"
+
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace stoss::engine {
+namespace {
+
+using test::Random;
+using Queue = EventQueue<double>;
+
+/// Slot s has id 1000 - s, so that the order of slots is not that of ids.
+const auto kIds = [](std::int32_t slot, const Event<double>& event) {
+  const auto own = static_cast<Id>(1000 - slot);
+  const auto other = event.partner < 0 ? own : static_cast<Id>(1000 - event.partner);
+  return own < other ? IdPair{own, other} : IdPair{other, own};
+};
+
+Event<double> event_at(std::int64_t seconds, EventKind kind, std::int32_t partner) {
+  return {Instant{seconds, 0}, partner, 0, kind};
+}
+
+/// The slot of the first event, the slow way.
+std::int32_t first_of(const std::map<std::int32_t, Event<double>>& events) {
+  const auto first =
+      std::min_element(events.begin(), events.end(), [](const auto& a, const auto& b) {
+        return earlier(a.second, a.first, b.second, b.first, kIds);
+      });
+  return first->first;
+}
+
+TEST(EventQueue, OrdersByInstantThenKindThenLowerThenHigherId) {
+  Queue queue;
+  for (std::int32_t slot = 0; slot < 10; ++slot) queue.admit(slot);
+  queue.set(0, event_at(5, EventKind::DiskWallEnd, 9), kIds);
+  queue.set(1, event_at(5, EventKind::DiskWall, 9), kIds);
+  queue.set(2, event_at(5, EventKind::DiskDisk, 3), kIds);  // ids 997, 998
+  queue.set(4, event_at(5, EventKind::DiskDisk, 7), kIds);  // ids 993, 996
+  queue.set(5, event_at(5, EventKind::DiskDisk, 7), kIds);  // ids 993, 995
+  queue.set(6, event_at(5, EventKind::NeighbourRenewal, -1), kIds);
+  queue.set(8, event_at(4, EventKind::DiskWallEnd, 9), kIds);
+  std::vector<std::int32_t> order;
+  while (!queue.empty()) {
+    order.push_back(queue.top());
+    queue.erase(queue.top(), kIds);
+  }
+  EXPECT_EQ(order, (std::vector<std::int32_t>{8, 6, 5, 4, 2, 1, 0}));
+}
+
+TEST(EventQueue, AnEventThatNeverComesLeavesIt) {
+  Queue queue;
+  queue.admit(0);
+  queue.set(0, event_at(5, EventKind::DiskDisk, 1), kIds);
+  queue.set(0, Event<double>{}, kIds);
+  EXPECT_TRUE(queue.empty());
+  EXPECT_EQ(queue.event_of(0).at, Instant::never());
+  queue.erase(0, kIds);  // absent: nothing happens
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(EventQueue, AgreesWithASortedListUnderRandomWork) {
+  Random random(test::seed_of_run());
+  Queue queue;
+  std::map<std::int32_t, Event<double>> reference;
+  for (int i = 0; i < 200'000; ++i) {
+    const auto slot = static_cast<std::int32_t>(random.below(60));
+    queue.admit(slot);
+    if (random.one_in(4)) {
+      queue.erase(slot, kIds);
+      reference.erase(slot);
+    } else {
+      // Few instants and kinds: ties all the time.
+      const auto event = event_at(static_cast<std::int64_t>(random.below(6)),
+                                  static_cast<EventKind>(random.below(4)),
+                                  static_cast<std::int32_t>(random.below(60)));
+      queue.set(slot, event, kIds);
+      reference[slot] = event;
+    }
+    ASSERT_EQ(queue.empty(), reference.empty());
+    if (reference.empty()) continue;
+    const std::int32_t top = queue.top();
+    const std::int32_t expected = first_of(reference);
+    // Two slots may hold events of one pair; those are equal.
+    ASSERT_FALSE(earlier(reference[top], top, reference[expected], expected, kIds));
+    ASSERT_FALSE(earlier(reference[expected], expected, reference[top], top, kIds));
+    ASSERT_EQ(queue.event_of(top).at, reference[top].at);
+  }
+}
+
+}  // namespace
+}  // namespace stoss::engine
