@@ -4,7 +4,8 @@
 
     run_builds.py --source ROOT --work DIR [--include DIR]... [--jobs N] [--list]
 
-Compilers g++ and clang++, each without optimisation and with -O3, on x86-64 each for the baseline and
+Compilers g++ and clang++, each without optimisation and with -O3, on x86-64 each for the
+baseline and
 with fused multiply-adds (x86-64-v3, where the processor has it). Programs are kept in DIR and built
 anew when a source, a flag or a compiler changes.
 """
