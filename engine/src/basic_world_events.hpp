@@ -6,6 +6,7 @@
 #include "basic_world.hpp"
 #include "contact_law/elastic.hpp"
 #include "simultaneous.hpp"
+#include "squeeze.hpp"
 
 #include <stoss/engine/check.hpp>
 
@@ -127,8 +128,8 @@ Vector2 BasicWorld<S>::normal_towards(Slot from, Slot to) const {
   return detail::rounded(r.position).normalized();
 }
 
-// A disk between two immovable bodies that close in on it bounces without end as the room goes to
-// zero. Told from the stored motions alone: a tiny hop, and an opposite neighbour that closes in.
+// A disk between immovable bodies that close in on it bounces without end as the room goes to zero.
+// Told from the stored motions alone: a tiny hop, and neighbours that leave it no way out.
 template <class S>
 bool BasicWorld<S>::is_squeezed(const Contact& contact) const {
   constexpr double kRoom = 1e-4;  // of the radius; chosen: ten thousand hits into the squeeze
@@ -137,19 +138,23 @@ bool BasicWorld<S>::is_squeezed(const Contact& contact) const {
   if (at(anvil).is_dynamic()) return false;
   const double room = kRoom * static_cast<double>(at(disk).radius);
   if (hop(disk, at(disk).motion.since, now_) > room) return false;
-  const Vector2 normal = normal_towards(disk, anvil);
-  const Vector2 velocity = detail::rounded(at(anvil).motion.velocity);
-  bool squeezed = false;
+  const auto jaw = [&](Slot other) {
+    const Vector2 normal = normal_towards(disk, other);
+    return Jaw{normal, detail::rounded(at(other).motion.velocity).dot(normal)};
+  };
+  const Jaw first = jaw(anvil);
+  std::vector<Jaw> others;
   for_each_neighbour(disk, [&](Slot other) {
-    if (squeezed || other == anvil || at(other).is_dynamic() || clearance(disk, other) > room)
-      return;
-    const Vector2 opposite = normal_towards(disk, other);
-    const bool facing = opposite.dot(normal) < 0 &&
-                        std::abs(opposite.x() * normal.y() - opposite.y() * normal.x()) < 1e-9;
-    const Vector2 closing = detail::rounded(at(other).motion.velocity) - velocity;
-    squeezed = facing && closing.dot(normal) > 0;
+    if (other == anvil || at(other).is_dynamic() || clearance(disk, other) > room) return;
+    others.push_back(jaw(other));
   });
-  return squeezed;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (close_in(first, others[i])) return true;
+    for (std::size_t j = i + 1; j < others.size(); ++j) {
+      if (close_in(first, others[i], others[j])) return true;
+    }
+  }
+  return false;
 }
 
 // Another body touches `shared` in such a way that it matters which contact comes first.

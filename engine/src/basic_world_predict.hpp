@@ -14,7 +14,7 @@ auto BasicWorld<S>::id_lookup() const {
   return [this](Slot slot, const Event<S>& event) {
     const Id own = at(slot).id;
     if (event.kind == EventKind::NeighbourRenewal) return IdPair{own, own};
-    const Id other = at(event.partner).id;
+    const Id other = event.partner_id;
     return own < other ? IdPair{own, other} : IdPair{other, own};
   };
 }
@@ -148,7 +148,7 @@ std::optional<Event<S>> BasicWorld<S>::event_with(Slot holder, Slot partner) con
   const auto instant =
       later_by(contact->reference, contact->after_reference.hi, contact->after_reference.lo);
   if (!instant) return std::nullopt;
-  return Event<S>{*instant, partner, at(partner).changes, contact->kind};
+  return Event<S>{*instant, partner, at(partner).changes, contact->kind, at(partner).id};
 }
 
 // When the body's displacement from its box's anchor reaches the margin, a little early.

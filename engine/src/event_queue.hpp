@@ -32,6 +32,7 @@ struct Event {
   std::int32_t partner = -1;          ///< slot of the other body
   std::uint32_t partner_changes = 0;  ///< the partner's count when this was predicted
   EventKind kind = EventKind::NeighbourRenewal;
+  Id partner_id = kNoId;  ///< kept here: a slot may be given to another body while the event waits
 };
 
 /// The ids of an event's bodies, lower first.
