@@ -294,6 +294,30 @@ TEST(Pistons, CompressSlowlyAtConstantAction) {
   EXPECT_NEAR(state(world, 1).velocity.norm(), 1, 4 * slow);
 }
 
+// Three walls that close in leave a disk no way out; the world stops before it bounces for ever.
+TEST(Squeezes, BetweenThreeBodiesStopTheWorldAndNameTheDisk) {
+  const auto closing = [](double speed) {
+    World world;
+    std::vector<WallSpec> walls;
+    for (int i = 0; i < 3; ++i) {
+      const double angle = 0.3 + 2 * std::numbers::pi * i / 3;
+      const Vector2 out(std::cos(angle), std::sin(angle));
+      const Vector2 along(-out.y(), out.x());
+      walls.push_back(wall(static_cast<Id>(10 + i),
+                           2 * out - 9 * along,
+                           2 * out + 9 * along,
+                           i == 0 ? Vector2(-speed * out) : Vector2(0, 0)));
+    }
+    must_spawn(world, {disk(1, {0, 0}, {1.5, 1}, 0.5)}, walls);
+    return world.advance_to(seconds(60), nullptr, 1'000'000).value();
+  };
+  const AdvanceReport report = closing(0.1);
+  EXPECT_EQ(report.stop, Stop::Stalled);
+  EXPECT_EQ(report.stalled, 1U);
+  EXPECT_EQ(closing(0).stop, Stop::Reached);
+  EXPECT_EQ(closing(-0.1).stop, Stop::Reached);
+}
+
 // Touching disks between touching walls have no room: contacts follow each other without end at one
 // instant. The world says so, at the same contact under all circumstances.
 World packing(BroadPhaseKind kind, bool backwards) {
