@@ -13,6 +13,7 @@ void FramePort::publish(const Picture& picture) {
   const bool is_new =
       last_ != picture.moment() || last_scene_ != picture.scene_version() || readers > readers_;
   readers_ = readers;
+  if (readers == 0) drop_chunks_from(0);  // or the next reader would first be given an old picture
   if (readers == 0 || !is_new) return;
   last_ = picture.moment();
   last_scene_ = picture.scene_version();

@@ -97,3 +97,5 @@ BENCHMARK(BM_Gas)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
+
+BENCHMARK_MAIN();

@@ -66,7 +66,9 @@ TEST_P(Scene, DoesNotDependOnTheBroadPhase) {
   const Digests neighbours = run_scene(some, GetParam().until);
   EXPECT_EQ(run_scene(some, GetParam().until, {.broad_phase = engine::BroadPhaseKind::AllPairs}),
             neighbours);
-  if (stride == 1) EXPECT_EQ(neighbours, pinned());
+  if (stride == 1) {
+    EXPECT_EQ(neighbours, pinned());
+  }
 }
 
 }  // namespace

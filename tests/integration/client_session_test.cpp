@@ -146,7 +146,6 @@ TEST(ClientSession, ADaemonThatIsStartedAgainIsFoundAgain) {
 TEST(ClientSession, CollisionsFromTheBeginningComeWithoutAGap) {
   Process daemon(stossd(kDomain, {"--scene", scene("pi-2"), "--world", "pi", "--speed", "max"}));
   Session session(options("pi"));
-  ASSERT_TRUE(session.command(Command::run_to({100, 0})).ok());
   CollisionFeed feed(session, 1);
   std::uint64_t next = 1;
   const auto end = steady_clock::now() + std::chrono::seconds(15);

@@ -25,7 +25,9 @@ World table(Arithmetic arithmetic, BroadPhaseKind broad_phase = BroadPhaseKind::
   std::vector<DiskSpec> disks(12);
   for (std::size_t i = 0; i < disks.size(); ++i) {
     const auto n = static_cast<double>(i);
-    disks[i].position = {1.0 + 1.25 * static_cast<double>(i % 4), 1.0 + 1.5 * std::floor(n / 4)};
+    // Off the lattice, so that no two contacts share an instant that rounding could order.
+    disks[i].position = {1.0 + 1.25 * static_cast<double>(i % 4) + 0.013 * std::sin(3 * n),
+                         1.0 + 1.5 * std::floor(n / 4) + 0.017 * std::cos(5 * n)};
     disks[i].velocity = {1.0 - 0.375 * static_cast<double>(i % 5),
                          0.25 * static_cast<double>(i % 3)};
     disks[i].radius = 0.375;

@@ -311,11 +311,11 @@ TEST(Squeezes, BetweenThreeBodiesStopTheWorldAndNameTheDisk) {
     must_spawn(world, {disk(1, {0, 0}, {1.5, 1}, 0.5)}, walls);
     return world.advance_to(seconds(60), nullptr, 1'000'000).value();
   };
-  const AdvanceReport report = closing(0.1);
+  const AdvanceReport report = closing(1);
   EXPECT_EQ(report.stop, Stop::Stalled);
   EXPECT_EQ(report.stalled, 1U);
   EXPECT_EQ(closing(0).stop, Stop::Reached);
-  EXPECT_EQ(closing(-0.1).stop, Stop::Reached);
+  EXPECT_EQ(closing(-1).stop, Stop::Reached);
 }
 
 // Touching disks between touching walls have no room: contacts follow each other without end at one

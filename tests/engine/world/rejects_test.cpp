@@ -249,7 +249,7 @@ TEST(Rejects, AWallThroughADiskSaysWhichAndByHowMuch) {
   World world(WorldOptions{});
   must_spawn(world, {disk(1, {0, 0}, {0, 0}, 2), disk(2, {0, 10}, {0, 0}, 1)});
   const WallSpec spec = wall(kNoId, {-5, 1.5}, {5, 1.5});
-  expect_overlap(world, {{}, std::span(&spec, 1)}, "walls[0]", 3, 1, -0.5);
+  expect_overlap(world, {{}, std::span(&spec, 1)}, "walls[0]", kNoId, 1, -0.5);
 }
 
 TEST(Rejects, TheDeepestOverlapIsNamedAndTiesByTheLowerId) {
@@ -257,9 +257,9 @@ TEST(Rejects, TheDeepestOverlapIsNamedAndTiesByTheLowerId) {
   must_spawn(world,
              {disk(5, {-2, 0}, {0, 0}, 1), disk(3, {2, 0}, {0, 0}, 1), disk(4, {0, 3}, {0, 0}, 1)});
   const DiskSpec spec = disk(kNoId, {0, 0}, {0, 0}, 1.5);
-  expect_overlap(world, {std::span(&spec, 1), {}}, "disks[0]", 6, 3, -0.5);
+  expect_overlap(world, {std::span(&spec, 1), {}}, "disks[0]", kNoId, 3, -0.5);
   const DiskSpec towards_5 = disk(kNoId, {-0.5, 0}, {0, 0}, 1.5);
-  expect_overlap(world, {std::span(&towards_5, 1), {}}, "disks[0]", 6, 5, -1);
+  expect_overlap(world, {std::span(&towards_5, 1), {}}, "disks[0]", kNoId, 5, -1);
 }
 
 TEST(Rejects, OverlapOfTwoBodiesOfTheSameSpawn) {
