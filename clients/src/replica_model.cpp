@@ -243,17 +243,8 @@ engine::BodyState ReplicaModel::disk_at(const ReplicaBody& body,
 
 engine::WallState ReplicaModel::wall_at(const ReplicaBody& body,
                                         const engine::Instant& instant) const {
-  switch (arithmetic_) {
-    case engine::Arithmetic::Float:
-      return wall_in<float>(body, instant);
-    case engine::Arithmetic::Double:
-      return wall_in<double>(body, instant);
-    case engine::Arithmetic::LongDouble:
-    case engine::Arithmetic::DoubleDouble:
-    case engine::Arithmetic::Float128:
-      return wall_in<long double>(body, instant);
-  }
-  return wall_in<double>(body, instant);
+  return arithmetic_ == engine::Arithmetic::Float ? wall_in<float>(body, instant)
+                                                  : wall_in<double>(body, instant);
 }
 
 }  // namespace stoss::client

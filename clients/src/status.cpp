@@ -28,11 +28,13 @@ void copy_counts(Status& to, const idl::wire::Status& from) {
   to.ticks_slipped = from.ticks_slipped;
   to.regularised = from.regularised;
   to.order_dependent = from.order_dependent;
+  to.verify_period = from.verify_period;
   to.verify_checks = from.verify_checks;
   to.verify_overlaps = from.verify_overlaps;
   to.verify_missed = from.verify_missed;
   to.verify_worst_overlap = from.verify_worst_overlap;
   to.verify_energy_error = from.verify_energy_error;
+  to.verify_momentum_error = from.verify_momentum_error;
 }
 
 }  // namespace

@@ -140,18 +140,11 @@ Vector2 evaluate_in(const MotionRecord& record, const Instant& instant) {
 
 }  // namespace
 
+// A record holds double-words, so double's evaluation is the best of all wider worlds, too, and the
+// same on every machine.
 Vector2 evaluate(const MotionRecord& motion, Arithmetic arithmetic, const Instant& instant) {
-  switch (arithmetic) {
-    case Arithmetic::Float:
-      return evaluate_in<float>(motion, instant);
-    case Arithmetic::Double:
-      return evaluate_in<double>(motion, instant);
-    case Arithmetic::LongDouble:
-    case Arithmetic::DoubleDouble:
-    case Arithmetic::Float128:
-      return evaluate_in<long double>(motion, instant);
-  }
-  return evaluate_in<double>(motion, instant);
+  return arithmetic == Arithmetic::Float ? evaluate_in<float>(motion, instant)
+                                         : evaluate_in<double>(motion, instant);
 }
 
 double turned(double angle, double spin, const Instant& since, const Instant& instant) {

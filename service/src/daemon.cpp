@@ -3,12 +3,11 @@
 
 #include "exit_codes.hpp"
 #include "fp_environment.hpp"
-#include "thread_name.hpp"
+#include "guarded_thread.hpp"
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
 namespace stoss::service {
@@ -30,12 +29,13 @@ Daemon::Daemon(const DaemonOptions& options,
       intake_(participant_, topics_, options.publication.world, gates_, inbox_, outbox_, shared_) {}
 
 void Daemon::start() {
-  publication_thread_ = std::thread([this] { guard("publisher", [this] { run_publication(); }); });
-  world_thread_ = std::thread([this] { guard("world", [this] { run_world(); }); });
-  intake_.start();
+  publication_thread_ =
+      std::jthread([this] { run_guarded("publisher", failure_, [this] { run_publication(); }); });
+  world_thread_ = std::jthread([this] { run_guarded("world", failure_, [this] { run_world(); }); });
+  intake_.start(failure_);
 }
 
-void Daemon::stop() {
+void Daemon::stop() noexcept {
   intake_.stop();
   stop_world_ = true;
   inbox_.wake();
@@ -44,17 +44,6 @@ void Daemon::stop() {
   stop_publication_ = true;
   outbox_.wake();
   if (publication_thread_.joinable()) publication_thread_.join();
-}
-
-// An exception here is a fault of the program or a want of memory: the daemon ends, and says so.
-void Daemon::guard(const char* thread, const std::function<void()>& body) {
-  name_thread(thread);
-  try {
-    body();
-  } catch (const std::exception& error) {
-    spdlog::critical("the {} thread cannot go on: {}", thread, error.what());
-    failure_ = kExitInvariant;
-  }
 }
 
 void Daemon::run_world() {

@@ -12,7 +12,6 @@
 #include "topics.hpp"
 
 #include <atomic>
-#include <functional>
 #include <string>
 #include <thread>
 
@@ -35,16 +34,17 @@ class Daemon {
   ~Daemon() { stop(); }
 
   void start();
-  /// Refuses what waits, finishes the tick, tells the last status. Ends all threads.
-  void stop();
+  /// Refuses what waits, finishes the tick, tells the last status. Ends all threads, those of a
+  /// start that failed half-way and those that cannot go on included.
+  void stop() noexcept;
   /// The exit status that a thread asks for because it cannot go on; 0 while all is well.
   [[nodiscard]] int failure() const { return failure_.load(); }
 
  private:
   void run_world();
   void run_publication();
-  void guard(const char* thread, const std::function<void()>& body);
 
+  std::atomic<int> failure_{0};
   SteadyClock clock_;
   Gates gates_;  // before everything that holds its tickets
   SharedCounters shared_;
@@ -58,9 +58,8 @@ class Daemon {
   Intake intake_;
   std::atomic<bool> stop_world_{false};
   std::atomic<bool> stop_publication_{false};
-  std::atomic<int> failure_{0};
-  std::thread world_thread_;
-  std::thread publication_thread_;
+  std::jthread world_thread_;  // last, so that nothing they use goes before them
+  std::jthread publication_thread_;
 };
 
 }  // namespace stoss::service

@@ -4,7 +4,10 @@
 #include "questions.hpp"
 #include "thread_name.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -27,7 +30,7 @@ bool Forecaster::has_room() const {
 void Forecaster::submit(Forecast forecast) {
   const std::lock_guard lock(mutex_);
   waiting_.push_back(std::move(forecast));
-  if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+  if (!thread_.joinable()) thread_ = std::jthread([this] { run(); });
   changed_.notify_one();
 }
 
@@ -45,8 +48,19 @@ bool Forecaster::stopping() const {
   return stopping_;
 }
 
+// A fault here costs the forecasts and not the world: no more are taken.
 void Forecaster::run() {
   name_thread("forecaster");
+  try {
+    answer_each();
+  } catch (const std::exception& error) {
+    spdlog::critical("the forecaster thread cannot go on: {}", error.what());
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+}
+
+void Forecaster::answer_each() {
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
@@ -57,7 +71,7 @@ void Forecaster::run() {
     lock.unlock();
     AnswerItem item{
         forecast.query.spec.request, forecast.moment, Reject{}, std::move(forecast.query.ticket)};
-    auto rows = look_ahead(forecast);
+    auto rows = guarded_look_ahead(forecast);
     if (rows) {
       item.content = std::move(rows).value();
     } else {
@@ -66,6 +80,17 @@ void Forecaster::run() {
     outbox_.push(std::move(item));
     lock.lock();
     busy_ = false;
+  }
+}
+
+// A broken world or a want of memory ends one forecast. If the world is broken, its own thread
+// finds the same when it gets there.
+engine::Outcome<Rows> Forecaster::guarded_look_ahead(Forecast& forecast) const {
+  try {
+    return look_ahead(forecast);
+  } catch (const std::exception& error) {
+    spdlog::error("a forecast failed: {}", error.what());
+    return Reject{.code = Code::Internal, .field = "", .reason = error.what()};
   }
 }
 

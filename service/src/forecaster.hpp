@@ -48,7 +48,9 @@ class Forecaster {
 
  private:
   void run();
+  void answer_each();
   [[nodiscard]] engine::Outcome<Rows> look_ahead(Forecast& forecast) const;
+  [[nodiscard]] engine::Outcome<Rows> guarded_look_ahead(Forecast& forecast) const;
   [[nodiscard]] bool stopping() const;
 
   Outbox& outbox_;
@@ -57,7 +59,7 @@ class Forecaster {
   std::deque<Forecast> waiting_;
   bool busy_ = false;
   bool stopping_ = false;
-  std::thread thread_;  // started by the first forecast
+  std::jthread thread_;  // started by the first forecast
 };
 
 }  // namespace stoss::service

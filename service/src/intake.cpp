@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "intake.hpp"
 
-#include "thread_name.hpp"
+#include "guarded_thread.hpp"
 
 #include <stoss/translate/command.hpp>
 #include <stoss/translate/query.hpp>
@@ -69,25 +69,23 @@ Intake::Intake(const dds::Participant& participant,
   waitset_.attach(stop_, kStopTag);
 }
 
-void Intake::start() {
-  thread_ = std::thread([this] { run(); });
+void Intake::start(std::atomic<int>& failure) {
+  thread_ = std::jthread([this, &failure] { run_guarded("intake", failure, [this] { run(); }); });
 }
 
-void Intake::stop() {
-  if (!thread_.joinable()) return;
+void Intake::stop() noexcept {
+  stopping_ = true;
   stop_.set();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void Intake::run() {
-  name_thread("intake");
-  bool stopping = false;
-  while (!stopping) {
-    const int triggered =
-        waitset_.wait(kWait, [&](std::intptr_t tag) { stopping = stopping || tag == kStopTag; });
+  for (bool is_last = false; !is_last;) {
+    const int triggered = waitset_.wait(kWait, [](std::intptr_t) {});
+    is_last = stopping_;  // what came before the stop is still taken in
     if (triggered < 0) {
       spdlog::error("waiting for commands failed with code {}", triggered);
-      std::this_thread::sleep_for(kWait);
+      if (!is_last) std::this_thread::sleep_for(kWait);
     }
     // A batch of each in turn; whatever is left triggers the waitset again.
     for (const auto sample : command_reader_.take()) {

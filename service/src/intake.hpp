@@ -10,6 +10,7 @@
 #include "publication.hpp"
 #include "topics.hpp"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -57,9 +58,10 @@ class Intake {
   Intake& operator=(const Intake&) = delete;
   ~Intake() { stop(); }
 
-  void start();
+  /// `failure` is set when the thread cannot go on; it must outlive the intake.
+  void start(std::atomic<int>& failure);
   /// No longer takes anything in; ends the thread.
-  void stop();
+  void stop() noexcept;
 
  private:
   void run();
@@ -77,7 +79,8 @@ class Intake {
   dds::Reader<wire::Query> query_reader_;
   dds::Guard stop_;
   dds::WaitSet waitset_;
-  std::thread thread_;
+  std::atomic<bool> stopping_{false};
+  std::jthread thread_;
 };
 
 }  // namespace stoss::service

@@ -93,6 +93,7 @@ DaemonOptions daemon_options(const Options& options, const Start& start) {
                        .paused = options.paused,
                        .bodies_max = options.bodies_max,
                        .epoch = first_epoch(),
+                       .verify = options.verify,
                        .choice = {options.arithmetic, options.broad_phase}};
   result.publication = {.world = start.world,
                         .scene_name = start.scene.name(),

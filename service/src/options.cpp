@@ -5,8 +5,10 @@
 
 #include <stoss/dds/config.hpp>
 #include <stoss/engine/tick_clock.hpp>
+#include <stoss/engine/verify.hpp>
 #include <stoss/idl/topics.hpp>
 #include <stoss/translate/basics.hpp>
+#include <stoss/translate/scene.hpp>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
@@ -91,11 +93,48 @@ void add_world_options(CLI::App& app, Options& options, std::string& speed) {
       ->capture_default_str();
 }
 
-void add_engine_options(CLI::App& app, std::string& scalar, std::string& broad_phase) {
-  app.add_option("--scalar", scalar, "The arithmetic: float, double or long-double")
+// A number of events above 0; the option without one (which CLI11 hands over as "true") is the
+// default, and "false", as a configuration file may say, is none.
+std::string parse_verify(const std::string& text, std::uint64_t& verify) {
+  if (text == "true" || text == "false") {
+    verify = text == "true" ? engine::kVerifyPeriod : 0;
+    return {};
+  }
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, verify);
+  return error == std::errc() && stop == end && verify > 0 ? "" : "must be a number above 0";
+}
+
+std::string wrong_scalar(const std::string& name) {
+  std::string known;
+  for (const engine::Arithmetic arithmetic : translate::arithmetics()) {
+    if (name == translate::name_of(arithmetic)) return {};
+    known += known.empty() ? "" : ", ";
+    known += translate::name_of(arithmetic);
+  }
+  return "must be one of " + known + ", not " + name;
+}
+
+void add_engine_options(CLI::App& app,
+                        std::string& scalar,
+                        std::string& broad_phase,
+                        std::string& verify) {
+  app.add_option("--scalar",
+                 scalar,
+                 "The arithmetic: float, double, long-double, double-double or float128")
       ->type_name("NAME")
       ->capture_default_str()
-      ->check(CLI::IsMember({"float", "double", "long-double"}));
+      ->check(check("", wrong_scalar));
+  app.add_option("--verify",
+                 verify,
+                 "Check the whole world for overlaps, missed contacts and drift every so many "
+                 "events (100000 unless given), and tell in the status")
+      ->type_name("[EVENTS]")
+      ->expected(0, 1)
+      ->check(check("", [](const std::string& text) {
+        std::uint64_t value = 0;
+        return parse_verify(text, value);
+      }));
   app.add_option("--broad-phase",
                  broad_phase,
                  "neighbours or all-pairs; the first is faster, the results are the same")
@@ -142,11 +181,12 @@ std::variant<Options, Exit> parse_options(int argc, const char* const* argv) {
   std::string speed = "1";
   std::string scalar = "double";
   std::string broad_phase = "neighbours";
+  std::string verify = "false";
   CLI::App app("Holds a live two-dimensional world of disks and walls, and advances it exactly.",
                "stossd");
   app.footer(kFooter);
   add_world_options(app, options, speed);
-  add_engine_options(app, scalar, broad_phase);
+  add_engine_options(app, scalar, broad_phase, verify);
   add_network_options(app, options);
   add_program_options(app, options);
   try {
@@ -158,6 +198,7 @@ std::variant<Options, Exit> parse_options(int argc, const char* const* argv) {
     return Exit{is_config ? kExitConfig : kExitUsage};
   }
   static_cast<void>(parse_speed(speed, options.speed));
+  static_cast<void>(parse_verify(verify, options.verify));
   options.arithmetic = translate::arithmetic_of(scalar).value_or(options.arithmetic);
   options.broad_phase = translate::broad_phase_of(broad_phase).value_or(options.broad_phase);
   if (options.scene.empty() && options.world.empty()) {

@@ -22,6 +22,7 @@ struct Options {
   double frame_rate = 20;
   engine::Arithmetic arithmetic = engine::Arithmetic::Double;
   engine::BroadPhaseKind broad_phase = engine::BroadPhaseKind::Neighbours;
+  std::uint64_t verify = 0;  ///< events between two checks of the whole world; 0: none
   std::size_t bodies_max = 1'000'000;
   std::string interface = "lo";
   bool allow_network = false;

@@ -29,17 +29,8 @@ engine::Vector2 end_at(const Picture::Body& body, const engine::Instant& instant
 engine::Vector2 end_at(const Picture::Body& body,
                        engine::Arithmetic arithmetic,
                        const engine::Instant& instant) {
-  switch (arithmetic) {
-    case engine::Arithmetic::Float:
-      return end_at<float>(body, instant);
-    case engine::Arithmetic::Double:
-      return end_at<double>(body, instant);
-    case engine::Arithmetic::LongDouble:
-    case engine::Arithmetic::DoubleDouble:
-    case engine::Arithmetic::Float128:
-      return end_at<long double>(body, instant);
-  }
-  return end_at<double>(body, instant);
+  return arithmetic == engine::Arithmetic::Float ? end_at<float>(body, instant)
+                                                 : end_at<double>(body, instant);
 }
 
 }  // namespace

@@ -60,6 +60,13 @@ void Publication::fill_status(const WorldStatus& status) {
   status_.ticks_slipped = status.ticks_slipped;
   status_.regularised = status.regularised;
   status_.order_dependent = status.order_dependent;
+  status_.verify_period = status.verify_period;
+  status_.verify_checks = status.verified.checks;
+  status_.verify_overlaps = status.verified.overlaps;
+  status_.verify_missed = status.verified.missed;
+  status_.verify_worst_overlap = status.verified.deepest;
+  status_.verify_energy_error = status.verified.energy_error;
+  status_.verify_momentum_error = status.verified.momentum_error;
   status_.arithmetic = idl::wire_value(translate::to_wire(status.arithmetic));
   idl::assign(status_.broad_phase, translate::name_of(status.broad_phase));
   idl::assign(status_.version, STOSS_VERSION);

@@ -183,8 +183,7 @@ std::vector<std::string> features() {
                         Ask::kForecast}) {
     words.push_back("query:" + std::string(idl::name_of(ask)));
   }
-  for (const auto arithmetic :
-       {engine::Arithmetic::Float, engine::Arithmetic::Double, engine::Arithmetic::LongDouble}) {
+  for (const engine::Arithmetic arithmetic : translate::arithmetics()) {
     words.push_back("scalar:" + std::string(translate::name_of(arithmetic)));
   }
   for (const std::string_view effect : translate::engine_effects()) {

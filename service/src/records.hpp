@@ -6,6 +6,7 @@
 
 #include <stoss/engine/outcome.hpp>
 #include <stoss/engine/types.hpp>
+#include <stoss/engine/verify.hpp>
 #include <stoss/idl/types.hpp>
 #include <stoss/translate/columns.hpp>
 #include <stoss/translate/command.hpp>
@@ -134,6 +135,8 @@ struct WorldStatus {
   std::uint64_t order_dependent = 0;
   std::uint64_t collisions_lost = 0;
   std::uint64_t records_put_off = 0;
+  std::uint64_t verify_period = 0;  ///< 0: the world is not verified
+  engine::Verification verified{};
   engine::Arithmetic arithmetic = engine::Arithmetic::Double;
   engine::BroadPhaseKind broad_phase = engine::BroadPhaseKind::Neighbours;
 };

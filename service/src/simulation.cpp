@@ -36,6 +36,7 @@ Simulation::Simulation(translate::SceneBodies scene,
       run_(clock_from(world_.now(), options.tick_rate), !options.paused),
       pacer_(options.tick_rate, options.speed),
       epoch_(options.epoch) {
+  if (options.verify != 0) verifier_.emplace(options.verify);
   std::vector<NamedBody> names;
   for (std::size_t i = 0; i < world.ids.size(); ++i) {
     const std::size_t disks = scene_.disk_names.size();
@@ -125,27 +126,39 @@ bool Simulation::finish_tick() {
   return true;
 }
 
+// False when the turn's budget is used up before the instant, or the world has failed.
 bool Simulation::advance(const Instant& instant) {
-  const auto outcome = world_.advance_to(instant, this, events_left_);
-  if (!outcome) {
-    fail(outcome.reject().reason);
-    return false;
-  }
-  const engine::AdvanceReport& report = outcome.value();
-  events_left_ -= std::min(events_left_, report.events);
-  events_ += report.events;
-  status_.events += report.events;
-  switch (report.stop) {
-    case engine::Stop::Reached:
-      run_.reached(world_.now());
-      return true;
-    case engine::Stop::EventBudget:
+  for (;;) {
+    const std::uint64_t budget =
+        verifier_ ? std::min(events_left_, verifier_->events_left()) : events_left_;
+    const auto outcome = world_.advance_to(instant, this, budget);
+    if (!outcome) {
+      fail(outcome.reject().reason);
       return false;
-    case engine::Stop::Stalled:
-      fail("events crowd into one instant around body " + std::to_string(report.stalled));
-      return false;
+    }
+    const engine::AdvanceReport& report = outcome.value();
+    count_events(report.events);
+    switch (report.stop) {
+      case engine::Stop::Reached:
+        run_.reached(world_.now());
+        return true;
+      case engine::Stop::EventBudget:
+        if (events_left_ == 0) return false;
+        break;
+      case engine::Stop::Stalled:
+        fail("events crowd into one instant around body " + std::to_string(report.stalled));
+        return false;
+    }
   }
-  return false;
+}
+
+void Simulation::count_events(std::uint64_t events) {
+  events_left_ -= std::min(events_left_, events);
+  events_ += events;
+  status_.events += events;
+  if (!verifier_) return;
+  verifier_->count_events(events);
+  if (verifier_->events_left() == 0) verify();
 }
 
 // A world that stands still: commands take effect at once, at its present.

@@ -21,12 +21,15 @@
 #include "schedule.hpp"
 #include "watch_table.hpp"
 
+#include <stoss/engine/verify.hpp>
 #include <stoss/engine/world.hpp>
 #include <stoss/translate/scene.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -49,16 +52,14 @@ inline constexpr std::size_t kTicksWaitingMax = 64;
 inline constexpr std::size_t kCollisionsWaitingMax = 65'536;
 /// How often the status is told when nothing changes.
 inline constexpr Nanoseconds kStatusInterval{1'000'000'000};
-/// Up to this many bodies the state's hash goes with every batch of motions that somebody reads;
-/// beyond it, where hashing would cost more than the ticks, only with the status.
-inline constexpr std::size_t kHashedBodiesMax = 20'000;
 
 struct SimulationOptions {
   double tick_rate = 60;  ///< ticks per simulated second; TickClock::from_rate must take it
   double speed = 1;       ///< simulated seconds per real second, > 0; infinity: flat out
   bool paused = false;
   std::size_t bodies_max = 1'000'000;
-  std::uint64_t epoch = 1;  ///< the first one's number
+  std::uint64_t epoch = 1;   ///< the first one's number
+  std::uint64_t verify = 0;  ///< events between two checks of the whole world; 0: none
   translate::WorldChoice choice{};
 };
 
@@ -97,6 +98,7 @@ class Simulation final : private engine::CollisionSink {
   bool finish_tick();
   [[nodiscard]] engine::Instant tick_end() const;
   bool advance(const engine::Instant& instant);
+  void count_events(std::uint64_t events);
   void take_in_commands();
   void take_in(CommandItem command);
   void schedule_untimed(const engine::Instant& at);
@@ -110,6 +112,7 @@ class Simulation final : private engine::CollisionSink {
   // simulation_commands.cpp: what each command does
   void apply(CommandItem command);
   Made execute(const translate::CommandSpec& spec);
+  Made change_bodies(std::span<const engine::Id> ids, const std::function<Made()>& change);
   Made spawn(const translate::CommandSpec& spec);
   Made remove(const translate::CommandSpec& spec);
   Made step(const translate::CommandSpec& spec);
@@ -130,6 +133,7 @@ class Simulation final : private engine::CollisionSink {
   void send_replies();
   void report_status(idl::WorldState state);
   void report_status_if_due();
+  void verify();
   [[nodiscard]] idl::WorldState state() const;
 
   const translate::SceneBodies scene_;
@@ -158,6 +162,9 @@ class Simulation final : private engine::CollisionSink {
   std::vector<engine::Collision> collisions_;
   std::vector<NamedBody> names_;
   std::unordered_map<engine::Id, engine::MotionRecord> removed_;  ///< where and when they went
+
+  std::optional<engine::Verifier> verifier_;
+  std::optional<Nanoseconds> fault_told_at_;
 
   WorldStatus status_;  ///< its counters are kept here between reports
   bool status_due_ = true;

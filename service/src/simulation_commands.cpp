@@ -53,15 +53,15 @@ Simulation::Made Simulation::execute(const translate::CommandSpec& spec) {
   }
   switch (op) {
     case Op::kSpawn:
-      return spawn(spec);
+      return change_bodies({}, [&] { return spawn(spec); });
     case Op::kRemove:
-      return remove(spec);
+      return change_bodies(spec.ids, [&] { return remove(spec); });
     case Op::kSetVelocity:
       if (spec.vectors.empty()) return invalid("ids", "names no body");
-      return done(world_.set_velocity(spec.vectors));
+      return change_bodies(spec.ids, [&] { return done(world_.set_velocity(spec.vectors)); });
     case Op::kApplyImpulse:
       if (spec.vectors.empty()) return invalid("ids", "names no body");
-      return done(world_.apply_impulse(spec.vectors));
+      return change_bodies(spec.ids, [&] { return done(world_.apply_impulse(spec.vectors)); });
     case Op::kPause:
       run_.pause();
       return done();
@@ -91,6 +91,17 @@ Simulation::Made Simulation::execute(const translate::CommandSpec& spec) {
       break;
   }
   return unimplemented(spec.op);
+}
+
+// What a command does to energy and momentum is no drift.
+Simulation::Made Simulation::change_bodies(std::span<const engine::Id> ids,
+                                           const std::function<Made()>& change) {
+  if (!verifier_) return change();
+  verifier_->take_out(world_, ids);
+  Made made = change();
+  verifier_->put_in(world_, ids);
+  if (made) verifier_->put_in(world_, made.value());
+  return made;
 }
 
 Simulation::Made Simulation::spawn(const translate::CommandSpec& spec) {

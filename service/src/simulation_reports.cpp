@@ -3,6 +3,8 @@
 #include "questions.hpp"
 #include "simulation.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -64,6 +66,7 @@ void Simulation::on_collision(const engine::Collision& collision) {
     collisions_.clear();
   }
   if (collision.order_dependent) ++status_.order_dependent;
+  if (verifier_) verifier_->on_collision(collision);
   collisions_.push_back(collision);
 }
 
@@ -167,6 +170,7 @@ void Simulation::begin_epoch(std::vector<NamedBody> names) {
   removed_.clear();
   status_.events = 0;
   status_.order_dependent = 0;
+  if (verifier_) verifier_->begin(world_);
   outbox_.push(std::move(record));
 }
 
@@ -193,8 +197,7 @@ void Simulation::publish(bool at_any_rate) {
   if (record.changes.empty() && collisions_.empty() && published_ == record.moment) return;
   record.collisions = std::exchange(collisions_, {});
   record.names = std::exchange(names_, {});
-  if (!record.changes.empty() && outbox_.hash_wanted.load(std::memory_order_relaxed) &&
-      world_.disk_count() + world_.wall_count() <= kHashedBodiesMax) {
+  if (!record.changes.empty() && outbox_.hash_wanted.load(std::memory_order_relaxed)) {
     record.state_hash = world_.state_hash();
   }
   published_ = record.moment;
@@ -246,10 +249,39 @@ void Simulation::report_status(idl::WorldState state) {
   status_.ticks_late = pacer_.ticks_late();
   status_.ticks_slipped = pacer_.ticks_slipped();
   status_.arithmetic = world_.arithmetic();
+  if (verifier_) {
+    status_.verify_period = verifier_->period();
+    status_.verified = verifier_->found();
+  }
   status_.broad_phase = world_.broad_phase();
   status_at_ = now;
   status_due_ = false;
   outbox_.push(status_);
+}
+
+void Simulation::verify() {
+  const engine::Verification before = verifier_->found();
+  const engine::Verification& found = verifier_->check(world_);
+  const auto drift = [](const engine::Verification& v) {
+    return std::max(v.energy_error, v.momentum_error);
+  };
+  const bool is_worse = found.overlaps > before.overlaps || found.missed > before.missed ||
+                        drift(found) > drift(before);
+  // A fault that stays is told once a second, not at every check.
+  constexpr Nanoseconds kPatience{1'000'000'000};
+  if (!is_worse || engine::is_healthy(found, world_.arithmetic())) return;
+  status_due_ = true;
+  if (fault_told_at_ && clock_.now() - *fault_told_at_ < kPatience) return;
+  fault_told_at_ = clock_.now();
+  spdlog::error(
+      "verification found a fault at {} s: {} overlaps, {} missed contacts, deepest overlap {:.3g} "
+      "of the contact distance, energy off by {:.3g}, momentum by {:.3g}",
+      engine::seconds_between({}, world_.now()),
+      found.overlaps,
+      found.missed,
+      found.deepest,
+      found.energy_error,
+      found.momentum_error);
 }
 
 }  // namespace stoss::service

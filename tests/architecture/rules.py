@@ -36,7 +36,7 @@ MAY_KNOW = {
     "engine": (set(), r"Eigen/\w+"),
     "wide": ({"engine"}, r"Eigen/\w+|quadmath\.h|qd/\w+\.h|boost/multiprecision/\w+\.hpp"),
     "idl": (set(), rf"dds/[\w/]+\.h|google/protobuf/[\w/.]+\.h|{POSIX}"),
-    "translate": ({"engine", "idl"}, r"google/protobuf/[\w/.]+\.h"),
+    "translate": ({"engine", "wide", "idl"}, r"google/protobuf/[\w/.]+\.h"),
     "service": ({"engine", "wide", "idl", "translate"},
                 rf"spdlog/[\w/-]+\.h|CLI/\w+\.hpp|google/protobuf/[\w/.]+\.h|{POSIX}"),
     "clients": ({"engine", "wide", "idl", "translate"},

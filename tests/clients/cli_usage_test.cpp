@@ -13,9 +13,9 @@ namespace stoss::tests {
 namespace {
 
 const std::vector<std::string> kVerbs = {
-    "worlds",  "status", "spawn",   "load",   "remove",     "set-velocity", "impulse", "get",
-    "list",    "region", "nearest", "ray",    "pause",      "resume",       "reset",   "step",
-    "run-for", "run-to", "speed",   "states", "collisions", "top",          "simulate"};
+    "worlds",  "status", "spawn",   "load",   "remove",     "set-velocity", "impulse",  "get",
+    "list",    "region", "nearest", "ray",    "pause",      "resume",       "reset",    "step",
+    "run-for", "run-to", "speed",   "states", "collisions", "top",          "simulate", "accuracy"};
 
 TEST(CliUsage, HelpListsEveryVerb) {
   const Finished help = stoss({"--help"});
@@ -146,6 +146,19 @@ TEST(TopScreen, FitsTheTerminalAndShowsTheFastestFirst) {
   ASSERT_NE(fastest, std::string::npos) << screen;
   EXPECT_LT(fastest, screen.find("\n        99 "));
   EXPECT_EQ(lines_of(screen).size(), 24U);
+}
+
+TEST(TopScreen, ShowsTheArithmeticAndWhatTheVerificationFound) {
+  client::cli::TopView view = view_of_disks(1);
+  view.status.arithmetic = 4;
+  EXPECT_NE(client::cli::top_screen(view, 80, 24).find("in float128"), std::string::npos);
+  EXPECT_NE(client::cli::top_screen(view, 80, 24).find("verify off"), std::string::npos);
+  view.status.verify_period = 100'000;
+  view.status.verify_checks = 12;
+  view.status.verify_worst_overlap = 3e-17;
+  const std::string screen = client::cli::top_screen(view, 80, 24);
+  EXPECT_NE(screen.find("12 x  overlaps 0  missed 0  deepest 3e-17  dE 0  dp 0"), std::string::npos)
+      << screen;
 }
 
 }  // namespace

@@ -81,6 +81,87 @@ TEST(FixedStep, TheLastStepIsAsShortAsItMustBe) {
   });
 }
 
+// Steps of 3/64 s: the contact at 1 s lies within the 22nd, which ends 1/32 s later.
+constexpr double kStep = 3.0 / 64;
+constexpr double kLate = 1.0 / 32;
+const std::vector<DiskSpec> kHeadOn = {disk(1, 0, 1), disk(2, 3, -1)};
+
+std::vector<double> places_after(const StepRule& rule, const engine::Instant& until) {
+  FixedStep world(kHeadOn, {}, {}, rule, false);
+  world.step_up_to(until, nullptr, kNoLimit);
+  std::vector<double> places;
+  world.for_each_disk(
+      [&places](const engine::BodyState& state) { places.push_back(state.position.x()); });
+  return places;
+}
+
+TEST(FixedStep, WithBackUpAContactIsResolvedWhereItBegan) {
+  const engine::Instant end = *engine::offset_by({}, 32 * kStep);
+  const std::vector<double> found = places_after({.step = kStep}, end);
+  EXPECT_EQ(found[0], 1 + kLate - (0.5 - kLate)) << "late by what it went too far, twice";
+  const std::vector<double> backed = places_after({.step = kStep, .back_up = true}, end);
+  EXPECT_NEAR(backed[0], 0.5, 1e-15);
+  EXPECT_NEAR(backed[1], 2.5, 1e-15);
+}
+
+TEST(FixedStep, WithBackUpTheInstantOfAContactIsTold) {
+  FixedStep world(kHeadOn, {}, {}, {.step = kStep, .back_up = true}, false);
+  Log log;
+  world.step_up_to({2, 0}, &log, kNoLimit);
+  ASSERT_EQ(log.collisions.size(), 1U);
+  EXPECT_NEAR(engine::seconds_between({}, log.collisions[0].instant), 1, 1e-15);
+}
+
+TEST(FixedStep, WithBackUpAWallsFaceAndEndThrowBackFromWhereTheyWereTouched) {
+  const std::vector<WallSpec> face = {{.id = 9, .start = {2.5, -1}, .end = {2.5, 1}}};
+  const std::vector<WallSpec> end = {{.id = 9, .start = {2.5, 0}, .end = {5, 0}}};
+  for (const auto& walls : {face, end}) {
+    FixedStep world(std::vector{disk(1, 0, 1)}, walls, {}, {.step = 0.375, .back_up = true}, false);
+    world.step_up_to({3, 0}, nullptr, kNoLimit);
+    world.for_each_disk([](const engine::BodyState& state) {
+      EXPECT_NEAR(state.position.x(), 1, 1e-15) << "2 m there, 1 m back";
+      EXPECT_EQ(state.velocity.x(), -1);
+    });
+  }
+}
+
+TEST(FixedStep, SubstepsFindWhatAsManyStepsWould) {
+  const engine::Instant end = *engine::offset_by({}, 64 * kStep);
+  EXPECT_EQ(places_after({.step = 4 * kStep, .substeps = 4}, end),
+            places_after({.step = kStep}, end));
+}
+
+TEST(FixedStep, StoppingWithinAStepLosesNoTime) {
+  FixedStep world(std::vector{disk(1, 0, 1)}, {}, {}, 0.25);
+  for (int i = 1; i <= 10; ++i) {
+    world.advance_to(*engine::offset_by({}, 0.1 * i), nullptr, kNoLimit);
+  }
+  world.for_each_disk(
+      [](const engine::BodyState& state) { EXPECT_NEAR(state.position.x(), 1, 1e-15); });
+}
+
+TEST(StepAudit, CountsAContactThatASteppedWorldPassesOver) {
+  const std::vector<WallSpec> walls = {{.id = 9, .start = {3, -1}, .end = {3, 1}}};
+  FixedStep tunnel(std::vector{disk(1, 0, 1000)}, walls, {}, {.step = 0.01}, true);
+  tunnel.step_up_to({1, 0}, nullptr, kNoLimit);
+  EXPECT_EQ(tunnel.audit().missed(), 1U);
+  const std::vector<DiskSpec> pair = {disk(1, 0, 1000), disk(2, 3, 0)};
+  FixedStep shot(pair, {}, {}, {.step = 0.01}, true);
+  shot.step_up_to({1, 0}, nullptr, kNoLimit);
+  EXPECT_EQ(shot.audit().missed(), 1U);
+}
+
+TEST(StepAudit, TellsHowDeepAndMissesNothingWhereAStepIsFineEnough) {
+  FixedStep world(kHeadOn, {}, {}, {.step = kStep}, true);
+  world.step_up_to({2, 0}, nullptr, kNoLimit);
+  EXPECT_EQ(world.audit().missed(), 0U);
+  EXPECT_NEAR(world.audit().deepest(), 2 * kLate, 1e-15);
+  const std::vector<WallSpec> walls = {{.id = 9, .start = {3, -1}, .end = {3, 1}}};
+  FixedStep slow(std::vector{disk(1, 0, 1)}, walls, {}, {.step = 0.01}, true);
+  slow.step_up_to({5, 0}, nullptr, kNoLimit);
+  EXPECT_EQ(slow.audit().missed(), 0U);
+}
+
 TEST(UniformGrid, YieldsEveryPairThatTouchesExactlyOnce) {
   std::vector<DiskSpec> disks;
   for (int i = 0; i < 400; ++i) {

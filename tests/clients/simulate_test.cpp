@@ -4,12 +4,16 @@
 
 #include "clients/run_program.hpp"
 
+#include <stoss/translate/basics.hpp>
+#include <stoss/translate/scene.hpp>
+
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <scene.pb.h>
 
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -173,12 +177,37 @@ TEST(Simulate, TheDigestIsThatOfTheLogsBytes) {
 
 TEST(Simulate, OtherArithmeticsRunAndDifferInTheLastPlaces) {
   const Finished twice = simulate("pool-break", "--until 0.2 --hash");
-  for (const char* scalar : {"float", "long-double"}) {
-    const Finished run =
-        simulate("pool-break", std::string("--until 0.2 --hash --scalar ") + scalar);
+  std::set<std::string> outputs = {twice.out};
+  const std::vector<engine::Arithmetic> all = translate::arithmetics();
+  for (const engine::Arithmetic arithmetic : all) {
+    if (arithmetic == engine::Arithmetic::Double) continue;
+    const std::string scalar(translate::name_of(arithmetic));
+    const Finished run = simulate("pool-break", "--until 0.2 --hash --scalar " + scalar);
     ASSERT_EQ(run.status, 0) << run.error;
-    EXPECT_NE(run.out, twice.out);
+    EXPECT_TRUE(outputs.insert(run.out).second) << scalar;
   }
+}
+
+TEST(Simulate, VerifiesOnDemandWithoutChangingAByte) {
+  const std::string common = "--until 2 --collisions - --states - --stats";
+  const Finished plain = simulate("pool-break", common);
+  EXPECT_EQ(nlohmann::json::parse(plain.error)["verify_checks"], 0);
+  for (const char* verify : {" --verify 5", " --verify", " --verify 1 --tick-rate 60"}) {
+    const Finished verified = simulate("pool-break", common + verify);
+    ASSERT_EQ(verified.status, 0) << verified.error;
+    EXPECT_EQ(verified.out, plain.out) << verify;
+    const auto stats = nlohmann::json::parse(verified.error);
+    EXPECT_GT(stats["verify_checks"], 0) << verify;
+    EXPECT_EQ(stats["verify_overlaps"], 0);
+    EXPECT_EQ(stats["verify_missed"], 0);
+    EXPECT_LT(stats["verify_worst_overlap"], 1e-12);
+    EXPECT_LT(stats["verify_energy_error"], 1e-15);
+    EXPECT_LT(stats["verify_momentum_error"], 1e-14);
+  }
+  // The word behind it is the scene unless it is a number; and the figures are always told.
+  const Finished before = stoss({"simulate", "--verify", scene("tutorial"), "--until", "1"});
+  EXPECT_EQ(before.status, 0) << before.error;
+  EXPECT_NE(before.error.find("0 overlaps, 0 missed contacts"), std::string::npos) << before.error;
 }
 
 TEST(Simulate, TheSteppedBaselineTakesTheSameScenes) {
@@ -221,7 +250,9 @@ TEST(Simulate, BadUsageIsToldAsSuch) {
                               "--until -1",
                               "--until 1e30",
                               "--until 1 --scalar half",
-                              "--until 1 --scalar float128",
+                              "--until 1 --verify 0",
+                              "--until 1 --verify=x",
+                              "--until 1 --method fixed-step --step 0.1 --verify",
                               "--until 1 --broad-phase magic",
                               "--until 1 --method exact --step 1",
                               "--until 1 --method fixed-step",

@@ -4,6 +4,7 @@
 // Environment: STOSS_CASES (cases per family), STOSS_SEED.
 #pragma once
 
+#include "support/campaign.hpp"
 #include "support/oracle.hpp"
 
 #include <cmath>
@@ -18,50 +19,9 @@
 
 namespace stoss::test {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers from every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-
-  std::uint64_t bits() {
-    state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-  }
-
-  /// In [low, high).
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(bits() >> 11U) * 0x1p-53);
-  }
-
-  /// 10^x with x in [low, high).
-  double decades(double low, double high) { return std::pow(10.0, uniform(low, high)); }
-
-  double either_sign(double x) { return (bits() & 1U) != 0 ? x : -x; }
-
- private:
-  std::uint64_t state_;
-};
-
-inline std::uint64_t environment_number(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 0);
-}
-
-/// Seed of the families, printed once per process.
-inline std::uint64_t seed_of_run() {
-  static const std::uint64_t seed = [] {
-    const std::uint64_t value = environment_number("STOSS_SEED", 20261122);
-    std::printf("STOSS_SEED=%llu\n", static_cast<unsigned long long>(value));
-    return value;
-  }();
-  return seed;
-}
-
+/// A million in long runs, as the tolerances are judged by; STOSS_CASES overrules both.
 inline std::uint64_t cases_per_family(std::uint64_t otherwise) {
-  return environment_number("STOSS_CASES", otherwise);
+  return environment_number("STOSS_CASES", campaign(otherwise, 1'000'000));
 }
 
 template <class S>

@@ -29,13 +29,15 @@ Box bounds(std::span<const engine::DiskSpec> disks) {
 
 }  // namespace
 
-void UniformGrid::build(std::span<const engine::DiskSpec> disks) {
+void UniformGrid::build(std::span<const engine::DiskSpec> disks, double margin) {
   rows_ = 0;
   columns_ = 0;
   if (disks.empty()) return;
   const Box box = bounds(disks);
   const engine::Vector2 extent = box.high - box.low;
-  if (!extent.allFinite()) {  // something has left the range of numbers: one cell for all
+  double width = 2 * (box.radius + margin);
+  if (!extent.allFinite() ||
+      !std::isfinite(width)) {  // something has left the range of numbers: one cell for all
     rows_ = columns_ = 1;
     first_ = {0, static_cast<std::uint32_t>(disks.size())};
     members_.resize(disks.size());
@@ -43,7 +45,6 @@ void UniformGrid::build(std::span<const engine::DiskSpec> disks) {
     return;
   }
   const double cells_max = kCellsPerDiskMax * static_cast<double>(disks.size());
-  double width = 2 * box.radius;
   while ((std::floor(extent.x() / width) + 1) * (std::floor(extent.y() / width) + 1) > cells_max) {
     width *= 2;
   }

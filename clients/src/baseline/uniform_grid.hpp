@@ -15,8 +15,8 @@ namespace stoss::client::baseline {
 
 class UniformGrid {
  public:
-  /// Sorts the disks into cells.
-  void build(std::span<const engine::DiskSpec> disks);
+  /// Sorts the disks into cells that are wide enough for disks that are larger by `margin` (m).
+  void build(std::span<const engine::DiskSpec> disks, double margin = 0);
 
   /// Calls `visit(i, j)`, i < j, once for every two disks of the same or of adjacent cells, in an
   /// order that depends on the positions alone.

@@ -40,6 +40,7 @@ void add_clock_verbs(CLI::App& app, Invocation& invocation);
 void add_stream_verbs(CLI::App& app, Invocation& invocation);
 void add_top_verb(CLI::App& app, Invocation& invocation);
 void add_simulate_verb(CLI::App& app, Invocation& invocation);
+void add_accuracy_verb(CLI::App& app, Invocation& invocation);
 
 /// A verb with its one-line description and an example; options of the command itself may follow
 /// it.

@@ -6,6 +6,7 @@
 
 #include <stoss/dds/log.hpp>
 
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -17,13 +18,16 @@ namespace {
 int exit_status(ExitCode code) { return static_cast<int>(code); }
 
 /// Arguments as CLI11 takes them: in reverse, and negative numbers that it would take for options
-/// (-.5, -inf) behind a blank, which the readers of numbers skip.
+/// (-.5, -inf) behind a blank, which the readers of numbers skip. --verify takes the word behind it
+/// only if that is a number: `simulate --verify SCENE` means the scene.
 std::vector<std::string> prepared(int argc, const char* const* argv) {
   std::vector<std::string> arguments;
   for (int i = argc - 1; i > 0; --i) {
     std::string argument = argv[i];
     const bool disguised = argument.rfind("-.", 0) == 0 || argument.rfind("-inf", 0) == 0 ||
                            argument.rfind("-nan", 0) == 0;
+    const bool has_number = i + 1 < argc && std::isdigit(static_cast<unsigned char>(*argv[i + 1]));
+    if (argument == "--verify" && !has_number) argument += "=true";
     arguments.push_back(disguised ? ' ' + argument : argument);
   }
   return arguments;
@@ -55,6 +59,7 @@ void describe_app(CLI::App& app, Invocation& invocation) {
   add_stream_verbs(app, invocation);
   add_top_verb(app, invocation);
   add_simulate_verb(app, invocation);
+  add_accuracy_verb(app, invocation);
 }
 
 int complain(ExitCode code, const std::string& text) {

@@ -37,9 +37,12 @@ Instant end_of(const SimulateOptions& options, const Instant& start) {
 /// world began). Events that are no collisions use up the budget of a call too, hence the loop.
 void advance(engine::World& world, const Instant& until, CollisionLog* log, std::uint64_t limit) {
   while (world.counters().collisions < limit) {
-    const std::uint64_t budget = limit - world.counters().collisions;
+    std::uint64_t budget = limit - world.counters().collisions;
+    if (log != nullptr && log->verifier()) {
+      budget = std::min(budget, log->verifier()->events_left());
+    }
     const engine::AdvanceReport report = value_or_refuse(world.advance_to(until, log, budget));
-    if (log != nullptr) log->count_events(report.events);
+    if (log != nullptr) log->count_events(world, report.events);
     if (report.stop == engine::Stop::Reached) return;
     if (report.stop == engine::Stop::Stalled) {
       throw RefusedError({.code = engine::Code::FailedPrecondition,
@@ -101,6 +104,7 @@ void simulate_exactly(const SimulateOptions& options,
           .world;
   const Instant end = end_of(options, world.now());
   SimulateReport report{.at_start = world.conserved()};
+  if (log.verifier()) log.verifier()->begin(world);
   // Without --until the number of collisions ends the run, and there may be fewer.
   std::optional<engine::World> beginning;
   if (!options.until) beginning = world;
@@ -108,6 +112,7 @@ void simulate_exactly(const SimulateOptions& options,
   advance_in_ticks(world, options, end, log);
   log.finish();
   report.wall_seconds = stopwatch.seconds();
+  if (log.verifier()) log.verifier()->check(world);  // a short run is checked, too
   if (beginning && world.counters().collisions < options.max_collisions) {
     // Back to the last collision there was: the end of time is no place to tell states of.
     const std::uint64_t last = world.counters().collisions;
@@ -122,6 +127,11 @@ void simulate_exactly(const SimulateOptions& options,
   report.state_hash = world.state_hash();
   write_states(options, [&world](const auto& visit) { world.for_each_disk(visit); });
   print_report(options, report, log);
+  if (log.verifier() && !engine::is_healthy(log.verifier()->found(), options.arithmetic)) {
+    throw RefusedError({.code = engine::Code::Internal,
+                        .field = {},
+                        .reason = "the verification found a fault in the world"});
+  }
 }
 
 void simulate_in_steps(const SimulateOptions& options,
@@ -157,7 +167,7 @@ void simulate(const SimulateOptions& options) {
     throw UsageError("simulate: needs --until or --max-collisions");
   }
   translate::SceneBodies bodies = scene_bodies(options.scene);
-  CollisionLog log(options.collisions, options.hash);
+  CollisionLog log(options.collisions, options.hash, options.verify);
   if (options.step) {
     simulate_in_steps(options, std::move(bodies), log);
   } else {

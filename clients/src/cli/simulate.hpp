@@ -21,12 +21,14 @@ struct SimulateOptions {
   engine::BroadPhaseKind broad_phase = engine::BroadPhaseKind::Neighbours;
   std::optional<double> step;  ///< s; set: the stepped baseline
   std::uint64_t max_collisions = ~std::uint64_t{0};
+  std::uint64_t verify = 0;  ///< events between two checks of the whole world; 0: none
   bool stats = false;
   bool hash = false;
   bool json = false;
 };
 
-/// Runs a scene. Throws RefusedError (a scene or body that is refused), UsageError, or
+/// Runs a scene. Throws RefusedError (a scene or body that is refused; Internal: the verification
+/// found a fault), UsageError, or
 /// std::system_error (output that cannot be written).
 void simulate(const SimulateOptions& options);
 

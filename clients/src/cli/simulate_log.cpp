@@ -12,15 +12,26 @@ constexpr std::uint64_t kFnvPrime = 0x100000001b3U;
 
 }  // namespace
 
-CollisionLog::CollisionLog(const std::optional<std::string>& path, bool digest)
+CollisionLog::CollisionLog(const std::optional<std::string>& path,
+                           bool digest,
+                           std::uint64_t verify)
     : digesting_(digest), digest_(kFnvOffset) {
   if (path) file_.emplace(*path);
+  if (verify != 0) verifier_.emplace(verify);
+}
+
+void CollisionLog::count_events(const engine::World& world, std::uint64_t events) {
+  events_ += events;
+  if (!verifier_) return;
+  verifier_->count_events(events);
+  if (verifier_->events_left() == 0) verifier_->check(world);
 }
 
 void CollisionLog::on_collision(const engine::Collision& collision) {
   ++collisions_;
   if (collision.regularised) ++regularised_;
   if (collision.order_dependent) ++order_dependent_;
+  if (verifier_) verifier_->on_collision(collision);
   if (!file_ && !digesting_) return;
   std::string& out = file_ ? file_->buffer() : line_;
   if (!file_) out.clear();

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// The collision log of an offline run: written, digested, or only counted.
+// The collision log of an offline run: written, digested, or only counted; and told to the
+// verifier.
 
 #include "cli/log_file.hpp"
 
 #include <stoss/engine/types.hpp>
+#include <stoss/engine/verify.hpp>
+#include <stoss/engine/world.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -17,14 +20,18 @@ namespace stoss::client::cli {
 /// that is asked for.
 class CollisionLog : public engine::CollisionSink {
  public:
-  CollisionLog(const std::optional<std::string>& path, bool digest);
+  /// `verify`: events between two checks of the world; 0: none.
+  CollisionLog(const std::optional<std::string>& path, bool digest, std::uint64_t verify = 0);
 
   void on_collision(const engine::Collision& collision) override;
-  void count_events(std::uint64_t events) { events_ += events; }
+  /// To be called after every advance of the world, with its events.
+  void count_events(const engine::World& world, std::uint64_t events);
   void flush_if_full();
   /// Everything is out. Throws std::system_error.
   void finish();
 
+  [[nodiscard]] std::optional<engine::Verifier>& verifier() { return verifier_; }
+  [[nodiscard]] const std::optional<engine::Verifier>& verifier() const { return verifier_; }
   [[nodiscard]] std::uint64_t collisions() const { return collisions_; }
   [[nodiscard]] std::uint64_t regularised() const { return regularised_; }
   [[nodiscard]] std::uint64_t order_dependent() const { return order_dependent_; }
@@ -36,6 +43,7 @@ class CollisionLog : public engine::CollisionSink {
   void digest_from(const std::string& text, std::size_t first);
 
   std::optional<LogFile> file_;
+  std::optional<engine::Verifier> verifier_;
   bool digesting_;
   std::string line_;
   std::uint64_t digest_;

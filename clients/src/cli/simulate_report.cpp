@@ -15,8 +15,18 @@ std::string vector_json(const engine::Vector2& v) {
   return JsonObject().number("x", v.x()).number("y", v.y()).text();
 }
 
+std::string verification_text(const engine::Verification& found) {
+  return "verified: " + std::to_string(found.checks) + " checks, " +
+         std::to_string(found.overlaps) + " overlaps, " + std::to_string(found.missed) +
+         " missed contacts, deepest overlap " + format_number(found.deepest) +
+         " of the contact distance, energy drift " + format_number(found.energy_error) +
+         ", momentum drift " + format_number(found.momentum_error);
+}
+
 std::string stats_json(const SimulateReport& report, const CollisionLog& log) {
   const double events = static_cast<double>(report.events);
+  const engine::Verification found =
+      log.verifier() ? log.verifier()->found() : engine::Verification{};
   return JsonObject()
       .count("collisions", log.collisions())
       .count("other_events", report.events - log.collisions())
@@ -32,6 +42,12 @@ std::string stats_json(const SimulateReport& report, const CollisionLog& log) {
       .count("order_dependent", log.order_dependent())
       .count("disks", report.disks)
       .count("walls", report.walls)
+      .count("verify_checks", found.checks)
+      .count("verify_overlaps", found.overlaps)
+      .count("verify_missed", found.missed)
+      .number("verify_worst_overlap", found.deepest)
+      .number("verify_energy_error", found.energy_error)
+      .number("verify_momentum_error", found.momentum_error)
       .string("end", format_instant(report.end))
       .text();
 }
@@ -56,7 +72,11 @@ void print_report(const SimulateOptions& options,
                   const SimulateReport& report,
                   const CollisionLog& log) {
   if (options.hash) std::printf("%s\n", hash_line(options, report, log).c_str());
-  if (options.stats) std::fprintf(stderr, "%s\n", stats_json(report, log).c_str());
+  if (options.stats) {
+    std::fprintf(stderr, "%s\n", stats_json(report, log).c_str());
+  } else if (log.verifier() && !options.json) {
+    std::fprintf(stderr, "%s\n", verification_text(log.verifier()->found()).c_str());
+  }
   if (options.hash || options.stats || options.collisions || options.states) return;
   if (options.json) {
     std::printf("%s\n", stats_json(report, log).c_str());

@@ -4,16 +4,14 @@
 #include "cli/common.hpp"
 #include "cli/simulate.hpp"
 
+#include <stoss/engine/verify.hpp>
 #include <stoss/translate/basics.hpp>
+#include <stoss/translate/scene.hpp>
 
 #include <cmath>
 
 namespace stoss::client::cli {
 namespace {
-
-/// The arithmetics that this program holds. A wider one is added here and nowhere else.
-constexpr engine::Arithmetic kArithmetics[] = {
-    engine::Arithmetic::Float, engine::Arithmetic::Double, engine::Arithmetic::LongDouble};
 
 struct SimulateTexts {
   std::string scene;
@@ -26,13 +24,14 @@ struct SimulateTexts {
   std::string method = "exact";
   std::string step;
   std::string max_collisions;
+  std::string verify;
   bool stats = false;
   bool hash = false;
 };
 
 engine::Arithmetic arithmetic_named(const std::string& name) {
   std::string known;
-  for (const engine::Arithmetic arithmetic : kArithmetics) {
+  for (const engine::Arithmetic arithmetic : translate::arithmetics()) {
     if (name == translate::name_of(arithmetic)) return arithmetic;
     known += (known.empty() ? "" : ", ") + std::string(translate::name_of(arithmetic));
   }
@@ -59,6 +58,15 @@ engine::Instant duration(const std::string& option, const std::string& text) {
   return value;
 }
 
+/// Nothing: off. "true" is what CLI11 makes of the option without a number.
+std::uint64_t verify_period(const std::string& text) {
+  if (text.empty()) return 0;
+  if (text == "true") return engine::kVerifyPeriod;
+  const std::uint64_t period = count_of("--verify", text);
+  if (period == 0) throw UsageError("--verify: must be above 0");
+  return period;
+}
+
 void read_method(const SimulateTexts& texts, SimulateOptions& options) {
   if (texts.method != "exact" && texts.method != "fixed-step") {
     throw UsageError("--method: must be exact or fixed-step");
@@ -66,6 +74,7 @@ void read_method(const SimulateTexts& texts, SimulateOptions& options) {
   const bool stepped = texts.method == "fixed-step";
   if (stepped && texts.step.empty()) throw UsageError("--method fixed-step needs --step");
   if (!stepped && !texts.step.empty()) throw UsageError("--step is for --method fixed-step");
+  if (stepped && options.verify != 0) throw UsageError("--verify is for --method exact");
   if (stepped) options.step = positive("--step", texts.step);
 }
 
@@ -81,6 +90,7 @@ SimulateOptions options_of(const SimulateTexts& texts, bool json) {
   if (!texts.max_collisions.empty()) {
     options.max_collisions = count_of("--max-collisions", texts.max_collisions);
   }
+  options.verify = verify_period(texts.verify);
   options.stats = texts.stats;
   options.hash = texts.hash;
   options.json = json;
@@ -107,7 +117,9 @@ void add_simulate_verb(CLI::App& app, Invocation& invocation) {
                    "Write the collisions as JSON Lines to this file; -: standard output");
   verb->add_option(
       "--states", texts->states, "Write the final states of all disks as JSON Lines to this file");
-  verb->add_option("--scalar", texts->scalar, "Arithmetic: float, double or long-double")
+  verb->add_option("--scalar",
+                   texts->scalar,
+                   "Arithmetic: float, double, long-double, double-double or float128")
       ->capture_default_str();
   verb->add_option(
           "--broad-phase", texts->broad_phase, "neighbours or all-pairs; changes no byte of output")
@@ -117,6 +129,12 @@ void add_simulate_verb(CLI::App& app, Invocation& invocation) {
       ->capture_default_str();
   verb->add_option("--step", texts->step, "Time step of fixed-step [s]");
   verb->add_option("--max-collisions", texts->max_collisions, "Stop right after so many");
+  verb->add_option("--verify",
+                   texts->verify,
+                   "Check the whole world for overlaps, missed contacts and drift every so many "
+                   "events (100000 unless given); changes no byte of output")
+      ->type_name("[EVENTS]")
+      ->expected(0, 1);
   verb->add_flag("--stats", texts->stats, "A JSON object of statistics on standard error");
   verb->add_flag(
       "--hash",

@@ -10,11 +10,6 @@
 namespace stoss::client::cli {
 namespace {
 
-std::string arithmetic_name(const Status& status) {
-  const auto arithmetic = translate::arithmetic_of(status.arithmetic);
-  return arithmetic ? std::string(translate::name_of(*arithmetic)) : "unknown";
-}
-
 std::string counters_json(const Status& status) {
   JsonObject object;
   for (const Status::Counter& counter : status.counters) {
@@ -49,16 +44,34 @@ void add_guards(JsonObject& object, const Status& s) {
       .integer("ticks_slipped", s.ticks_slipped)
       .integer("regularised", s.regularised)
       .integer("order_dependent", s.order_dependent)
+      .integer("verify_period", s.verify_period)
       .integer("verify_checks", s.verify_checks)
       .integer("verify_overlaps", s.verify_overlaps)
       .integer("verify_missed", s.verify_missed)
       .number("verify_worst_overlap", s.verify_worst_overlap)
-      .number("verify_energy_error", s.verify_energy_error);
+      .number("verify_energy_error", s.verify_energy_error)
+      .number("verify_momentum_error", s.verify_momentum_error);
+}
+
+// The figures are always shown: zero overlaps and misses are what a reader looks for.
+std::string verified(const Status& s) {
+  if (s.verify_period == 0) return "off (stossd --verify)";
+  return std::to_string(s.verify_checks) + " checks, one each " + std::to_string(s.verify_period) +
+         " events: " + std::to_string(s.verify_overlaps) + " overlaps, " +
+         std::to_string(s.verify_missed) + " missed, deepest " +
+         format_number(s.verify_worst_overlap) + ", energy " +
+         format_number(s.verify_energy_error) + ", momentum " +
+         format_number(s.verify_momentum_error);
 }
 
 std::string speed_word(double speed) { return std::isinf(speed) ? "max" : format_number(speed); }
 
 }  // namespace
+
+std::string arithmetic_name(const Status& status) {
+  const auto arithmetic = translate::arithmetic_of(status.arithmetic);
+  return arithmetic ? std::string(translate::name_of(*arithmetic)) : "unknown";
+}
 
 std::string status_json(const Status& s) {
   JsonObject object;
@@ -117,6 +130,7 @@ std::string status_text(const Status& s) {
   count("queue full", s.queue_full);
   line("ticks late",
        std::to_string(s.ticks_late) + " (" + std::to_string(s.ticks_slipped) + " slipped)");
+  line("verified", verified(s));
   line("arithmetic", arithmetic_name(s) + ", " + s.broad_phase);
   line("daemon",
        "stossd " + s.version + ", pid " + std::to_string(s.pid) + ", up " +

@@ -34,6 +34,8 @@ class Table {
 /// "ids 5 6, at 12.5 s, tick 750" as a line, or the reply as a JSON object on a line.
 [[nodiscard]] std::string reply_text(const Reply& reply, bool json);
 
+/// The word of --scalar for what the world computes in.
+[[nodiscard]] std::string arithmetic_name(const Status& status);
 /// One JSON object on one line, in the field names of the Status type.
 [[nodiscard]] std::string status_json(const Status& status);
 /// One item a line.

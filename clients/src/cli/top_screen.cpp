@@ -2,6 +2,7 @@
 #include "cli/top_screen.hpp"
 
 #include "cli/json_object.hpp"
+#include "cli/table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,7 @@
 namespace stoss::client::cli {
 namespace {
 
-constexpr int kHeaderRows = 8;
+constexpr int kHeaderRows = 9;
 
 /// As printf, into a string; longer lines are cut.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...) {
@@ -51,12 +52,24 @@ std::vector<FrameBody> fastest(const Frame& frame, std::size_t count) {
   return bodies;
 }
 
+std::string verify_row(const Status& s) {
+  if (s.verify_period == 0) return "verify off";
+  return formatted("verify %8llu x  overlaps %llu  missed %llu  deepest %.1g  dE %.1g  dp %.1g",
+                   static_cast<unsigned long long>(s.verify_checks),
+                   static_cast<unsigned long long>(s.verify_overlaps),
+                   static_cast<unsigned long long>(s.verify_missed),
+                   s.verify_worst_overlap,
+                   s.verify_energy_error,
+                   s.verify_momentum_error);
+}
+
 std::vector<std::string> header(const TopView& view) {
   const Status& s = view.status;
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   return {
-      formatted("stoss top   world %s   %s%s%s",
+      formatted("stoss top   world %s   in %s   %s%s%s",
                 s.world.c_str(),
+                arithmetic_name(s).c_str(),
                 idl::name_of(s.state).data(),
                 s.reason.empty() ? "" : ": ",
                 s.reason.c_str()),
@@ -88,6 +101,7 @@ std::vector<std::string> header(const TopView& view) {
                 number(s.dropped),
                 number(s.ticks_late),
                 number(s.ticks_slipped)),
+      verify_row(s),
   };
 }
 

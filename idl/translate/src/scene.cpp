@@ -2,6 +2,7 @@
 #include <stoss/idl/scene_file.hpp>
 #include <stoss/translate/basics.hpp>
 #include <stoss/translate/scene.hpp>
+#include <stoss/wide/world.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -96,17 +97,28 @@ engine::Outcome<SceneBodies> bodies_of(const Scene& scene) {
   return bodies;
 }
 
+std::vector<engine::Arithmetic> arithmetics() {
+  std::vector<engine::Arithmetic> available;
+  for (const auto arithmetic : {engine::Arithmetic::Float,
+                                engine::Arithmetic::Double,
+                                engine::Arithmetic::LongDouble,
+                                engine::Arithmetic::DoubleDouble,
+                                engine::Arithmetic::Float128}) {
+    if (wide::is_available(arithmetic)) available.push_back(arithmetic);
+  }
+  return available;
+}
+
 engine::Outcome<SceneWorld> make_world(const SceneBodies& bodies, const WorldChoice& choice) {
   if (!engine::in_range(bodies.start)) {
     return Reject{
         .code = Code::InvalidArgument, .field = "start", .reason = "is beyond the end of time"};
   }
-  if (choice.arithmetic == engine::Arithmetic::DoubleDouble ||
-      choice.arithmetic == engine::Arithmetic::Float128) {
+  if (!wide::is_available(choice.arithmetic)) {
     return unimplemented("arithmetic",
-                         std::string(name_of(choice.arithmetic)) + " is not in this program");
+                         std::string(name_of(choice.arithmetic)) + " is not in this build");
   }
-  engine::World world(
+  engine::World world = wide::make_world(
       {.start = bodies.start, .arithmetic = choice.arithmetic, .broad_phase = choice.broad_phase});
   auto made = world.spawn({bodies.disks, bodies.walls});
   if (!made) return made.reject();

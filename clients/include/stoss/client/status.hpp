@@ -52,11 +52,13 @@ struct Status {
   std::uint64_t ticks_slipped = 0;
   std::uint64_t regularised = 0;
   std::uint64_t order_dependent = 0;
+  std::uint64_t verify_period = 0;
   std::uint64_t verify_checks = 0;
   std::uint64_t verify_overlaps = 0;
   std::uint64_t verify_missed = 0;
   double verify_worst_overlap = 0;
   double verify_energy_error = 0;
+  double verify_momentum_error = 0;
   std::uint8_t arithmetic = 0;
   std::string broad_phase;
   std::string version;

@@ -50,8 +50,11 @@ struct SceneWorld {
   std::vector<engine::Id> ids;
 };
 
+/// The arithmetics that worlds can be made in: all but float128 in every build.
+[[nodiscard]] std::vector<engine::Arithmetic> arithmetics();
+
 /// Errors: those of World::spawn; InvalidArgument for a start beyond the end of time; Unimplemented
-/// for an arithmetic that this library has not.
+/// for an arithmetic that this build has not.
 [[nodiscard]] engine::Outcome<SceneWorld> make_world(const SceneBodies& bodies,
                                                      const WorldChoice& choice);
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// A gas of equal disks in a box that runs in slices, whichever build of the engine it is in.
+
+#include "support/random.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+namespace stoss::bench {
+
+/// Processes so many events and returns how many of them were collisions.
+using Advance = std::function<std::uint64_t(std::uint64_t events)>;
+
+/// columns^2 disks of 0.4375 m, off their lattice already. Throws when the world refuses them or
+/// stalls.
+template <class World, class Disk, class Wall>
+Advance make_run(int columns, double area_fraction) {
+  constexpr double kRadius = 0.4375;
+  const double side = columns * kRadius * std::sqrt(std::numbers::pi / area_fraction);
+  const double pitch = side / columns;
+  test::Random random(7);
+  std::vector<Disk> disks(static_cast<std::size_t>(columns * columns));
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const auto n = static_cast<int>(i);
+    disks[i].position = {pitch * (n % columns + 0.5), pitch * (n / columns + 0.5)};
+    disks[i].velocity = {random.uniform(-1.7, 1.7), random.uniform(-1.7, 1.7)};
+    disks[i].radius = kRadius;
+  }
+  const double corners[5][2] = {{0, 0}, {side, 0}, {side, side}, {0, side}, {0, 0}};
+  std::vector<Wall> walls(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    walls[i].start = {corners[i][0], corners[i][1]};
+    walls[i].end = {corners[i + 1][0], corners[i + 1][1]};
+  }
+  auto world = std::make_shared<World>();
+  if (!world->spawn({disks, walls}).ok()) throw std::runtime_error("the gas is refused");
+  Advance advance = [world](std::uint64_t events) {
+    const auto report = world->advance_to({1'000'000, 0}, nullptr, events).value();
+    if (report.events < events) throw std::runtime_error("the gas has stalled");
+    return report.collisions;
+  };
+  advance(8 * disks.size());
+  return advance;
+}
+
+}  // namespace stoss::bench

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine in double, compiled anew from its own sources: with its own kernels, or with those of
+// seed_engine.hpp where STOSS_SEED_KERNELS asks for them. The build renames the namespace `engine`,
+// so that all of them fit into one program.
+#ifdef STOSS_SEED_KERNELS
+#include "bench/seed_engine.hpp"
+#endif
+
+#include "basic_world.hpp"
+#include "bench/gas_run.hpp"
+
+namespace stoss::engine {
+
+template class BasicWorld<double>;
+
+std::unique_ptr<WorldCore> make_core(const WorldOptions& options) {
+  return std::make_unique<BasicWorld<double>>(options);
+}
+
+bench::Advance make_gas_run(int columns, double area_fraction) {
+  return bench::make_run<World, DiskSpec, WallSpec>(columns, area_fraction);
+}
+
+}  // namespace stoss::engine
