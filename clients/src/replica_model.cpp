@@ -233,8 +233,7 @@ engine::BodyState ReplicaModel::disk_at(const ReplicaBody& body,
   state.kind = body.body.kind;
   state.instant = instant;
   state.position = engine::evaluate(motion, arithmetic_, instant);
-  // The high word is the rounded value: the low one is at most half of its last place.
-  state.velocity = {motion.vx.high, motion.vy.high};
+  state.velocity = engine::evaluate_velocity(motion, arithmetic_, instant);
   state.angle = engine::turned(motion.angle, motion.spin, motion.since, instant);
   state.spin = motion.spin;
   state.radius = body.body.radius;

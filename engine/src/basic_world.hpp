@@ -19,10 +19,12 @@
 #include "broad_phase/neighbours.hpp"
 #include "bytes.hpp"
 #include "contact_law/elastic.hpp"
+#include "contact_law/rough.hpp"
 #include "contact_time/contact_time.hpp"
 #include "contact_time/disk_wall.hpp"
 #include "event_queue.hpp"
 #include "id_ledger.hpp"
+#include "laws.hpp"
 #include "screen.hpp"
 #include "world_core.hpp"
 
@@ -39,7 +41,7 @@ inline constexpr int kHolderRatioMax = 4;
 /// but a packing without room: the world reports a stall and goes no further.
 inline constexpr std::uint64_t kStallCollisions = 100'000;
 
-template <class S>
+template <class S, class Laws>
 class BasicWorld final : public WorldCore {
  public:
   explicit BasicWorld(const WorldOptions& options);
@@ -49,6 +51,7 @@ class BasicWorld final : public WorldCore {
   Instant now() const override { return to_instant(now_); }
   Arithmetic arithmetic() const override { return arithmetic_; }
   BroadPhaseKind broad_phase() const override { return broad_phase_; }
+  Effects effects() const override { return laws_.effects(); }
   std::size_t disk_count() const override { return slots_.size() - walls_in_use_; }
   std::size_t wall_count() const override { return walls_in_use_; }
   Counters counters() const override { return counters_; }
@@ -85,6 +88,8 @@ class BasicWorld final : public WorldCore {
   std::uint64_t state_hash() const override;
 
  private:
+  using Relative = typename Laws::template Relative<S>;
+
   /// A contact of two bodies as their motions foretell it. `a` is the disk of a disk and a wall, or
   /// the disk of lower id.
   struct Contact {
@@ -92,9 +97,17 @@ class BasicWorld final : public WorldCore {
     Slot b = -1;
     EventKind kind = EventKind::DiskDisk;
     WallFeature feature = WallFeature::Face;
-    Time<S> reference;           ///< the later of the two motions' instants
-    RelativeMotion<S> relative;  ///< disk-disk: b from a; else: disk from the wall's start or end
+    Time<S> reference;  ///< the later of the two motions' instants
+    Relative relative;  ///< disk-disk: b from a; else: disk from the wall's start or end
     Duration<S> after_reference{};  ///< s
+  };
+
+  /// What a contact does to its bodies.
+  struct ContactOutcome {
+    PairImpulse<S> impulse;
+    SpinChange<S> spins;
+    bool regularised = false;
+    bool is_last_bounce = false;  ///< the disk stays on what it has met
   };
 
   /// Names the offending element of a command in a refusal.
@@ -104,8 +117,8 @@ class BasicWorld final : public WorldCore {
   };
 
   static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
-  Body<S>& at(Slot slot) { return bodies_[index(slot)]; }
-  const Body<S>& at(Slot slot) const { return bodies_[index(slot)]; }
+  Body<S, Laws>& at(Slot slot) { return bodies_[index(slot)]; }
+  const Body<S, Laws>& at(Slot slot) const { return bodies_[index(slot)]; }
   WallShape<S>& shape(Slot slot) { return shapes_[static_cast<std::size_t>(at(slot).wall)]; }
   const WallShape<S>& shape(Slot slot) const {
     return shapes_[static_cast<std::size_t>(at(slot).wall)];
@@ -118,17 +131,16 @@ class BasicWorld final : public WorldCore {
   bool holds_prediction(Slot holder, Slot other) const;
   template <class Visit>
   void for_each_neighbour(Slot slot, Visit&& visit) const;
-  RelativeMotion<S> relative_motion(const Motion<S>& of,
-                                    const Motion<S>& from,
-                                    const Time<S>& reference) const;
+  Relative relative_motion(Slot of, Slot from, const Time<S>& reference) const;
   std::optional<Contact> contact_of(Slot i, Slot j) const;
   std::optional<Contact> disk_disk_contact_of(Slot a, Slot b) const;
   std::optional<Contact> disk_wall_contact_of(Slot disk, Slot wall) const;
-  RelativeMotion<S> motion_from_end(const RelativeMotion<S>& from_start, Slot wall, int end) const;
-  bool hidden_by_faces(const RelativeMotion<S>& from_vertex,
+  Relative motion_from_end(const Relative& from_start, Slot wall, int end) const;
+  bool hidden_by_faces(const Relative& from_vertex,
                        Slot wall,
                        int end,
-                       const Duration<S>& after) const;
+                       const Duration<S>& after,
+                       bool has_left_face) const;
   DoubleWord2<S> edge_from(const WallEnd& vertex) const;
   std::optional<Event<S>> event_with(Slot holder, Slot partner) const;
   Event<S> renewal_event(Slot slot, const Glance& here) const;
@@ -154,10 +166,51 @@ class BasicWorld final : public WorldCore {
   void rebase(Slot slot, const Time<S>& instant);
   Collision describe(const Contact& contact,
                      const Time<S>& instant,
-                     const PairImpulse<S>& impulse) const;
+                     const ContactOutcome& outcome) const;
   void validate(std::uint64_t events) const;
   void count_towards_stall();
   bool has_stalled(const Time<S>& instant) const;
+
+  // basic_world_laws.hpp
+  DoubleWord2<S> position_of(Slot slot, const Time<S>& instant) const;
+  DoubleWord2<S> velocity_of(Slot slot, const Time<S>& instant) const;
+  Glance glance_of(Slot slot) const;
+  double pull_of(Slot slot) const;
+  S valid_for(Slot a, Slot b, const Time<S>& reference) const;
+  void renew_law(Slot slot);
+  std::optional<Event<S>> own_event(Slot slot) const;
+  void process_own_event(Slot slot, const Time<S>& instant);
+  double potential_energy(Slot slot) const;
+  Rotation rotation_of(Slot slot) const;
+  void set_rotation(Slot slot, const Rotation& rotation);
+  void turn(Slot slot, const Time<S>& instant);
+  ContactOutcome impulse_of(const Contact& contact, const Time<S>& instant) const;
+  ContactOutcome lossy_impulse(const Contact& contact,
+                               const DoubleWord2<S>& velocity,
+                               const Time<S>& instant) const;
+  bool collided_lately(const Body<S, Laws>& a,
+                       const Time<S>& instant,
+                       const Body<S, Laws>& b) const;
+  void note_contact(Slot slot, const DoubleWord<S>& spin_change, const Time<S>& instant);
+  bool order_matters_between(
+      const Vector2& n1, const Vector2& n2, double w0, double w1, double w2) const;
+  DoubleWord<S> twice_spin_energy(const Body<S, Laws>& body) const;
+  template <class Sink>
+  void write_body_part(Sink& sink, Slot slot) const;
+  void read_body_part(ByteSource& source, Slot slot);
+
+  // basic_world_rest.hpp
+  bool rests_on(Slot a, Slot b) const;
+  void let_go(Slot slot);
+  bool is_last_bounce(const Contact& contact,
+                      const PairImpulse<S>& elastic,
+                      const S& restitution) const;
+  S hop_speed(const Contact& contact, const PairImpulse<S>& elastic, const S& restitution) const;
+  std::optional<Id> finds_hold(const Contact& contact) const;
+  void settle_down(const Contact& contact);
+  void renew_rest(Slot slot);
+  bool has_sound_supports(Slot slot) const;
+  std::vector<Slot> wake_disks_on(Slot support);
 
   // basic_world_commands.hpp
   std::optional<Reject> check_disk(const DiskSpec& spec, std::size_t i) const;
@@ -186,7 +239,6 @@ class BasicWorld final : public WorldCore {
   // basic_world_queries.hpp
   Slot slot_of(Id id) const { return slots_.at(id); }
   Reject not_found(Id id) const;
-  Rotation rotation_of(Slot slot) const;
   const std::vector<Slot>& ordered_slots() const;
   BodyState state_of(Slot slot) const;
   WallState wall_of(Slot slot) const;
@@ -209,16 +261,17 @@ class BasicWorld final : public WorldCore {
   Time<S> now_;
   Arithmetic arithmetic_;
   BroadPhaseKind broad_phase_;
+  [[no_unique_address]] typename Laws::template Settings<S> laws_;
   Counters counters_;
   Id next_id_ = 1;
   IdLedger ledger_;
 
-  std::vector<Body<S>> bodies_;
+  std::vector<Body<S, Laws>> bodies_;
   std::vector<WallShape<S>> shapes_;
   std::vector<Slot> free_slots_;
   std::vector<std::int32_t> free_shapes_;
   std::unordered_map<Id, Slot> slots_;            // looked up, never iterated
-  std::unordered_map<Slot, Rotation> rotations_;  // of the disks that turn or are turned; likewise
+  std::unordered_map<Slot, Rotation> rotations_;  // of turning disks in a plain world; likewise
   std::size_t walls_in_use_ = 0;
 
   Neighbours neighbours_;
@@ -244,11 +297,12 @@ class BasicWorld final : public WorldCore {
   mutable bool ordered_valid_ = true;
 };
 
-template <class S>
-BasicWorld<S>::BasicWorld(const WorldOptions& options)
+template <class S, class Laws>
+BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
     : now_(from_instant<Time<S>>(options.start)),
       arithmetic_(options.arithmetic),
-      broad_phase_(options.broad_phase) {}
+      broad_phase_(options.broad_phase),
+      laws_(options.effects) {}
 
 }  // namespace stoss::engine
 
@@ -258,4 +312,6 @@ BasicWorld<S>::BasicWorld(const WorldOptions& options)
 // After the queries, whose evaluations they use.
 #include "basic_world_census.hpp"
 #include "basic_world_events.hpp"
+#include "basic_world_laws.hpp"
 #include "basic_world_predict.hpp"
+#include "basic_world_rest.hpp"

@@ -3,13 +3,14 @@
 
 // The world as canonical bytes and as a digest.
 //
-// Layout, in 64-bit words: magic, format, arithmetic, now, collisions at now that count towards a
-// stall, collisions, regularised, next id, retired runs (count, then first and last of each),
-// bodies (count, then each in the order of ids). No event, box, list or slot is written:
+// Layout, in 64-bit words: magic, format, arithmetic and effects, now, collisions at now that count
+// towards a stall, collisions, regularised, next id, retired runs (count, then first and last of
+// each), bodies (count, then each in the order of ids). No event, box, list or slot is written:
 // predictions are functions of the motions and are made anew.
 
 #include "basic_world.hpp"
 #include "bytes.hpp"
+#include "effects_bytes.hpp"
 #include "limits.hpp"
 
 namespace stoss::engine {
@@ -18,11 +19,10 @@ inline constexpr std::uint64_t kBytesMagic = 0x31444c525753534fU;
 /// Raised whenever the layout changes or the engine's results do.
 inline constexpr std::uint64_t kBytesFormat = 1;
 
-template <class S>
+template <class S, class Laws>
 template <class Sink>
-void BasicWorld<S>::write_body(Sink& sink, Slot slot) const {
-  const Body<S>& body = at(slot);
-  const Rotation rotation = rotation_of(slot);
+void BasicWorld<S, Laws>::write_body(Sink& sink, Slot slot) const {
+  const Body<S, Laws>& body = at(slot);
   sink.word(body.id);
   sink.word(static_cast<std::uint64_t>(body.type));
   write_time(sink, body.motion.since);
@@ -34,16 +34,15 @@ void BasicWorld<S>::write_body(Sink& sink, Slot slot) const {
   }
   write_scalar(sink, body.radius);
   write_scalar(sink, body.mass);
-  sink.word(std::bit_cast<std::uint64_t>(rotation.angle));
-  sink.word(std::bit_cast<std::uint64_t>(rotation.spin));
+  write_body_part(sink, slot);
 }
 
-template <class S>
-std::vector<std::byte> BasicWorld<S>::serialise() const {
+template <class S, class Laws>
+std::vector<std::byte> BasicWorld<S, Laws>::serialise() const {
   ByteSink sink;
   sink.word(kBytesMagic);
   sink.word(kBytesFormat);
-  sink.word(static_cast<std::uint64_t>(arithmetic_));
+  write_identity(sink, {arithmetic_, effects()});
   write_time(sink, now_);
   sink.word(crowded_instant_ == now_ ? crowd_ : 0);
   sink.word(counters_.collisions);
@@ -59,8 +58,8 @@ std::vector<std::byte> BasicWorld<S>::serialise() const {
   return sink.take();
 }
 
-template <class S>
-void BasicWorld<S>::note_digest_stale(Slot slot) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::note_digest_stale(Slot slot) {
   if (index(slot) >= digests_.of_slot.size()) {
     digests_.of_slot.resize(index(slot) + 1, 0);
     digests_.is_stale.resize(index(slot) + 1, false);
@@ -71,10 +70,10 @@ void BasicWorld<S>::note_digest_stale(Slot slot) {
 }
 
 // A sum over bodies, so that it does not depend on an order and follows changes body by body.
-template <class S>
-std::uint64_t BasicWorld<S>::state_hash() const {
+template <class S, class Laws>
+std::uint64_t BasicWorld<S, Laws>::state_hash() const {
   DigestSink header;
-  header.word(static_cast<std::uint64_t>(arithmetic_));
+  write_identity(header, {arithmetic_, effects()});
   header.word(counters_.collisions);
   header.word(counters_.regularised);
   header.word(next_id_);
@@ -94,18 +93,20 @@ std::uint64_t BasicWorld<S>::state_hash() const {
   return header.digest() + digests_.sum;
 }
 
-template <class S>
-Outcome<Done> BasicWorld<S>::restore(std::span<const std::byte> bytes) {
+template <class S, class Laws>
+Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
   const auto damaged = [](const char* why) {
     return Reject{.code = Code::InvalidArgument, .field = "bytes", .reason = why};
   };
   ByteSource source(bytes);
   if (source.word() != kBytesMagic) return damaged("these are not a world's bytes");
   if (source.word() != kBytesFormat) return damaged("written in a format that is not known here");
-  if (source.word() != static_cast<std::uint64_t>(arithmetic_)) {
-    return damaged("written in another arithmetic");
+  const auto identity = read_identity(source);
+  if (!identity || *identity != WorldIdentity{arithmetic_, effects()}) {
+    return damaged("written in another arithmetic, or with other effects");
   }
-  BasicWorld fresh({.start = {}, .arithmetic = arithmetic_, .broad_phase = broad_phase_});
+  BasicWorld fresh(
+      {.start = {}, .arithmetic = arithmetic_, .broad_phase = broad_phase_, .effects = effects()});
   fresh.now_ = read_time<Time<S>>(source);
   if (!in_range(to_instant(fresh.now_))) return damaged("the instant is damaged");
   fresh.crowded_instant_ = fresh.now_;
@@ -146,6 +147,9 @@ Outcome<Done> BasicWorld<S>::restore(std::span<const std::byte> bytes) {
   if (previous >= next_id || !std::equal(bytes.begin(), bytes.end(), again.begin(), again.end())) {
     return damaged("not as any world would write itself");
   }
+  for (const Slot slot : fresh.ordered_slots()) {
+    if (!fresh.has_sound_supports(slot)) return damaged("what a body rests on is damaged");
+  }
   fresh.settle();
   if (!fresh.queue_.empty() && fresh.queue_.event_of(fresh.queue_.top()).at < fresh.now_) {
     return damaged("a contact lies before the present");
@@ -154,10 +158,10 @@ Outcome<Done> BasicWorld<S>::restore(std::span<const std::byte> bytes) {
   return Done{};
 }
 
-template <class S>
-void BasicWorld<S>::read_body(ByteSource& source, Id id, BodyType type) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::read_body(ByteSource& source, Id id, BodyType type) {
   const Slot slot = take_slot(id, type);
-  Body<S>& body = at(slot);
+  Body<S, Laws>& body = at(slot);
   body.motion.since = read_time<Time<S>>(source);
   body.motion.position = read_vector<S>(source);
   body.motion.velocity = read_vector<S>(source);
@@ -169,15 +173,13 @@ void BasicWorld<S>::read_body(ByteSource& source, Id id, BodyType type) {
   }
   body.radius = read_scalar<S>(source);
   body.mass = read_scalar<S>(source);
-  const auto angle = std::bit_cast<double>(source.word());
-  const auto spin = std::bit_cast<double>(source.word());
-  if (angle != 0 || spin != 0) rotations_[slot] = {angle, spin};
+  read_body_part(source, slot);
 }
 
 // Could this body have come of commands and collisions?
-template <class S>
-bool BasicWorld<S>::is_sound(Slot slot) const {
-  const Body<S>& body = at(slot);
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
+  const Body<S, Laws>& body = at(slot);
   const auto is_number = [](const DoubleWord<S>& x) {
     return std::isfinite(static_cast<double>(x.hi)) && S(x.hi + x.lo) == x.hi;
   };
@@ -200,8 +202,9 @@ bool BasicWorld<S>::is_sound(Slot slot) const {
 }
 
 // Boxes, vertices and events for bodies that have just been read.
-template <class S>
-void BasicWorld<S>::settle() {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::settle() {
+  for (const Slot slot : ordered_slots()) renew_law(slot);
   for (const Slot slot : ordered_slots()) renew_box(slot, static_cast<double>(at(slot).radius));
   for (const Slot slot : ordered_slots()) {
     if (at(slot).is_wall()) link_vertices(slot);

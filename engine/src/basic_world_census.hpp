@@ -11,20 +11,25 @@
 namespace stoss::engine {
 
 /// The extent of a body's flight from its last event to now(), in doubles.
-template <class S>
-Aabb BasicWorld<S>::swept_box(Slot slot) const {
+template <class S, class Laws>
+Aabb BasicWorld<S, Laws>::swept_box(Slot slot) const {
   const Aabb end = tight_box(slot);
-  const DoubleWord2<S> now = position_at(at(slot).motion, now_);
+  const DoubleWord2<S> now = position_of(slot, now_);
   const DoubleWord2<S>& then = at(slot).motion.position;
   const auto back_x = static_cast<double>(to_scalar(then.x - now.x));
   const auto back_y = static_cast<double>(to_scalar(then.y - now.y));
   const Aabb start{
       end.low_x + back_x, end.low_y + back_y, end.high_x + back_x, end.high_y + back_y};
-  return grown(merged(start, end), 0);
+  double sag = 0;  // between its ends a parabola leaves the chord by a T^2 / 8
+  if constexpr (Laws::kCurved) {
+    const double elapsed = rough_seconds(now_, at(slot).motion.since);
+    sag = pull_of(slot) * elapsed * elapsed / 8 * (1 + kScreenSlack<S>);
+  }
+  return grown(merged(start, end), sag);
 }
 
-template <class S>
-void BasicWorld<S>::examine(Slot a, Slot b, Census& census) const {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::examine(Slot a, Slot b, Census& census) const {
   ++census.pairs;
   const double gap = clearance(a, b);
   const double reach = reach_of(a, b);
@@ -36,8 +41,8 @@ void BasicWorld<S>::examine(Slot a, Slot b, Census& census) const {
   if (event && event->at < now_) ++census.missed;
 }
 
-template <class S>
-Census BasicWorld<S>::census() const {
+template <class S, class Laws>
+Census BasicWorld<S, Laws>::census() const {
   struct Entry {
     Aabb box;
     Slot slot;

@@ -65,8 +65,8 @@ DoubleWord2<S> stored(const Vector2& v) {
 
 }  // namespace detail
 
-template <class S>
-std::optional<Reject> BasicWorld<S>::check_disk(const DiskSpec& spec, std::size_t i) const {
+template <class S, class Laws>
+std::optional<Reject> BasicWorld<S, Laws>::check_disk(const DiskSpec& spec, std::size_t i) const {
   using detail::invalid;
   const auto check = [&](const Vector2& v, double limit, const char* member) {
     return detail::check_vector(v, limit, "disks", i, member, spec.id);
@@ -96,8 +96,8 @@ std::optional<Reject> BasicWorld<S>::check_disk(const DiskSpec& spec, std::size_
   return std::nullopt;
 }
 
-template <class S>
-std::optional<Reject> BasicWorld<S>::check_wall(const WallSpec& spec, std::size_t i) const {
+template <class S, class Laws>
+std::optional<Reject> BasicWorld<S, Laws>::check_wall(const WallSpec& spec, std::size_t i) const {
   const auto check = [&](const Vector2& v, double limit, const char* member) {
     return detail::check_vector(v, limit, "walls", i, member, spec.id);
   };
@@ -110,8 +110,8 @@ std::optional<Reject> BasicWorld<S>::check_wall(const WallSpec& spec, std::size_
   return std::nullopt;
 }
 
-template <class S>
-std::optional<Reject> BasicWorld<S>::check_new_ids(const SpawnRequest& request) const {
+template <class S, class Laws>
+std::optional<Reject> BasicWorld<S, Laws>::check_new_ids(const SpawnRequest& request) const {
   std::vector<std::pair<Id, std::size_t>> asked;
   const auto check = [&](Id id, const char* list, std::size_t i) -> std::optional<Reject> {
     if (id == kNoId) return std::nullopt;
@@ -146,8 +146,8 @@ std::optional<Reject> BasicWorld<S>::check_new_ids(const SpawnRequest& request) 
                 .reason = "the id is asked for twice in one command"};
 }
 
-template <class S>
-Outcome<std::vector<Id>> BasicWorld<S>::spawn(const SpawnRequest& request) {
+template <class S, class Laws>
+Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request) {
   for (std::size_t i = 0; i < request.disks.size(); ++i) {
     if (auto reject = check_disk(request.disks[i], i)) return *reject;
   }
@@ -208,10 +208,10 @@ Outcome<std::vector<Id>> BasicWorld<S>::spawn(const SpawnRequest& request) {
 
 // Ids that the refused command would have been given do not exist: a body without an id of its own
 // is named by its place in the command.
-template <class S>
-Reject BasicWorld<S>::in_asked_ids(Reject overlap,
-                                   const SpawnRequest& request,
-                                   const std::vector<Id>& made) const {
+template <class S, class Laws>
+Reject BasicWorld<S, Laws>::in_asked_ids(Reject overlap,
+                                         const SpawnRequest& request,
+                                         const std::vector<Id>& made) const {
   const std::size_t disks = request.disks.size();
   const auto asked = [&](std::size_t i) {
     return i < disks ? request.disks[i].id : request.walls[i - disks].id;
@@ -228,8 +228,8 @@ Reject BasicWorld<S>::in_asked_ids(Reject overlap,
   return overlap;
 }
 
-template <class S>
-Slot BasicWorld<S>::take_slot(Id id, BodyType type) {
+template <class S, class Laws>
+Slot BasicWorld<S, Laws>::take_slot(Id id, BodyType type) {
   Slot slot;
   if (free_slots_.empty()) {
     slot = static_cast<Slot>(bodies_.size());
@@ -238,9 +238,9 @@ Slot BasicWorld<S>::take_slot(Id id, BodyType type) {
     slot = free_slots_.back();
     free_slots_.pop_back();
   }
-  Body<S>& body = at(slot);
+  Body<S, Laws>& body = at(slot);
   const std::uint32_t changes = body.changes;  // never repeats, so that old events stay stale
-  body = Body<S>{};
+  body = Body<S, Laws>{};
   body.changes = changes + 1;
   body.id = id != kNoId ? id : next_id_++;
   body.type = type;
@@ -252,24 +252,23 @@ Slot BasicWorld<S>::take_slot(Id id, BodyType type) {
   return slot;
 }
 
-template <class S>
-Slot BasicWorld<S>::place(const DiskSpec& spec) {
+template <class S, class Laws>
+Slot BasicWorld<S, Laws>::place(const DiskSpec& spec) {
   const Slot slot = take_slot(spec.id, type_of(spec.kind));
-  Body<S>& body = at(slot);
+  Body<S, Laws>& body = at(slot);
   body.motion.position = detail::stored<S>(spec.position);
   body.motion.velocity = detail::stored<S>(spec.velocity);
   body.radius = S(spec.radius);
   body.mass = S(spec.mass);
-  if (spec.angle != 0 || spec.spin != 0) {
-    rotations_[slot] = {detail::canonical(spec.angle), detail::canonical(spec.spin)};
-  }
+  set_rotation(slot, {detail::canonical(spec.angle), detail::canonical(spec.spin)});
+  renew_law(slot);
   return slot;
 }
 
-template <class S>
-Slot BasicWorld<S>::place(const WallSpec& spec) {
+template <class S, class Laws>
+Slot BasicWorld<S, Laws>::place(const WallSpec& spec) {
   const Slot slot = take_slot(spec.id, BodyType::Wall);
-  Body<S>& body = at(slot);
+  Body<S, Laws>& body = at(slot);
   body.motion.position = detail::stored<S>(spec.start);
   body.motion.velocity = detail::stored<S>(spec.velocity);
   if (free_shapes_.empty()) {
@@ -286,16 +285,16 @@ Slot BasicWorld<S>::place(const WallSpec& spec) {
 }
 
 /// The distance at which two bodies touch, m: between centres, or from a centre to a wall.
-template <class S>
-double BasicWorld<S>::reach_of(Slot a, Slot b) const {
+template <class S, class Laws>
+double BasicWorld<S, Laws>::reach_of(Slot a, Slot b) const {
   return static_cast<double>(at(a).radius) + static_cast<double>(at(b).radius);
 }
 
 /// The distance between two surfaces at now(), m; negative for an overlap. Not for two walls.
-template <class S>
-double BasicWorld<S>::clearance(Slot a, Slot b) const {
+template <class S, class Laws>
+double BasicWorld<S, Laws>::clearance(Slot a, Slot b) const {
   if (at(a).is_wall()) return clearance(b, a);
-  const RelativeMotion<S> r = relative_motion(at(a).motion, at(b).motion, now_);
+  const Relative r = relative_motion(a, b, now_);
   DoubleWord2<S> apart = r.position;
   if (at(b).is_wall()) {
     const DoubleWord2<S>& e = shape(b).edge;
@@ -314,8 +313,8 @@ double BasicWorld<S>::clearance(Slot a, Slot b) const {
   return static_cast<double>(to_scalar(distance - reach));
 }
 
-template <class S>
-std::optional<Reject> BasicWorld<S>::overlap_of(Slot slot, const Place& place) const {
+template <class S, class Laws>
+std::optional<Reject> BasicWorld<S, Laws>::overlap_of(Slot slot, const Place& place) const {
   Id worst = kNoId;
   double deepest = 0;
   for_each_neighbour(slot, [&](Slot other) {
@@ -338,8 +337,8 @@ std::optional<Reject> BasicWorld<S>::overlap_of(Slot slot, const Place& place) c
 }
 
 // A new or changed body: predicts for it, and for the disks whose way a wall's ends now stand in.
-template <class S>
-void BasicWorld<S>::enter(Slot slot) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::enter(Slot slot) {
   predict(slot, /*changed=*/true);
   if (!at(slot).is_wall()) return;
   for (const auto& ends : shape(slot).incident) {
@@ -348,16 +347,16 @@ void BasicWorld<S>::enter(Slot slot) {
 }
 
 // A wall whose vertices have changed: what was predicted with it may no longer hold.
-template <class S>
-void BasicWorld<S>::predict_around(Slot wall) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::predict_around(Slot wall) {
   ++at(wall).changes;
   predict(wall, /*changed=*/true);
 }
 
 // A wall one of whose ends lost a neighbour: contacts that the neighbour hid count from now on, not
 // from before.
-template <class S>
-void BasicWorld<S>::lay_bare(Slot wall) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::lay_bare(Slot wall) {
   rebase(wall, now_);
   predict(wall, /*changed=*/true);
 }
@@ -366,8 +365,8 @@ void BasicWorld<S>::lay_bare(Slot wall) {
 // finds the same vertices. Chains that were moved and stopped, and arithmetics in which end - start
 // is rounded, hold their vertices to rounding: the tolerance is far above that, and far below the
 // margin within which faces and ends overlap.
-template <class S>
-bool BasicWorld<S>::same_vertex(const WallEnd& a, const WallEnd& b) const {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::same_vertex(const WallEnd& a, const WallEnd& b) const {
   using detail::magnitude;
   const Motion<S>& ma = at(a.wall).motion;
   const Motion<S>& mb = at(b.wall).motion;
@@ -391,8 +390,8 @@ bool BasicWorld<S>::same_vertex(const WallEnd& a, const WallEnd& b) const {
   return detail::sum_norm(apart) <= unit * size;
 }
 
-template <class S>
-void BasicWorld<S>::link_vertices(Slot wall) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::link_vertices(Slot wall) {
   std::vector<Slot> others;
   const auto collect = [&](Slot other) {
     if (other != wall && at(other).id != kNoId && at(other).is_wall()) others.push_back(other);
@@ -421,8 +420,8 @@ void BasicWorld<S>::link_vertices(Slot wall) {
   }
 }
 
-template <class S>
-void BasicWorld<S>::unlink_vertices(Slot wall) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::unlink_vertices(Slot wall) {
   for (auto& links : shape(wall).incident) {
     const std::vector<WallEnd> others = std::move(links);
     links.clear();
@@ -434,8 +433,8 @@ void BasicWorld<S>::unlink_vertices(Slot wall) {
 }
 
 // Frees a slot. Whoever was to meet the body is predicted anew: no event may name a free slot.
-template <class S>
-void BasicWorld<S>::release(Slot slot) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::release(Slot slot) {
   std::vector<Slot> linked;
   if (at(slot).is_wall()) {
     for (const auto& links : shape(slot).incident) {
@@ -465,8 +464,9 @@ void BasicWorld<S>::release(Slot slot) {
   for (const Slot other : linked) lay_bare(other);
 }
 
-template <class S>
-std::optional<Reject> BasicWorld<S>::check_distinct(std::vector<Id> ids, const char* list) const {
+template <class S, class Laws>
+std::optional<Reject> BasicWorld<S, Laws>::check_distinct(std::vector<Id> ids,
+                                                          const char* list) const {
   std::sort(ids.begin(), ids.end());
   const auto twin = std::adjacent_find(ids.begin(), ids.end());
   if (twin == ids.end()) return std::nullopt;
@@ -476,8 +476,8 @@ std::optional<Reject> BasicWorld<S>::check_distinct(std::vector<Id> ids, const c
                 .reason = "the body is named twice in one command"};
 }
 
-template <class S>
-Outcome<Done> BasicWorld<S>::remove(std::span<const Id> ids) {
+template <class S, class Laws>
+Outcome<Done> BasicWorld<S, Laws>::remove(std::span<const Id> ids) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (slots_.contains(ids[i])) continue;
     return Reject{.code = Code::NotFound,
@@ -487,19 +487,26 @@ Outcome<Done> BasicWorld<S>::remove(std::span<const Id> ids) {
                   .reason = "no such body"};
   }
   if (auto reject = check_distinct({ids.begin(), ids.end()}, "ids")) return *reject;
+  std::vector<Id> woken;
   for (const Id id : ids) {
     const Slot slot = slot_of(id);
+    if constexpr (Laws::kCurved) {
+      for (const Slot disk : wake_disks_on(slot)) woken.push_back(at(disk).id);
+    }
     note_change(slot, ChangeKind::Removed);
     release(slot);
     ledger_.retire(id);
+  }
+  for (const Id id : woken) {
+    if (slots_.contains(id)) predict(slot_of(id), /*changed=*/true);
   }
   crowd_ = 0;
   return Done{};
 }
 
-template <class S>
-std::optional<Reject> BasicWorld<S>::check_targets(std::span<const VectorFor> targets,
-                                                   const char* list) const {
+template <class S, class Laws>
+std::optional<Reject> BasicWorld<S, Laws>::check_targets(std::span<const VectorFor> targets,
+                                                         const char* list) const {
   std::vector<Id> ids;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const VectorFor& target = targets[i];
@@ -519,8 +526,8 @@ std::optional<Reject> BasicWorld<S>::check_targets(std::span<const VectorFor> ta
   return check_distinct(std::move(ids), list);
 }
 
-template <class S>
-Outcome<Done> BasicWorld<S>::set_velocity(std::span<const VectorFor> velocities) {
+template <class S, class Laws>
+Outcome<Done> BasicWorld<S, Laws>::set_velocity(std::span<const VectorFor> velocities) {
   if (auto reject = check_targets(velocities, "velocities")) return *reject;
   for (std::size_t i = 0; i < velocities.size(); ++i) {
     if (at(slot_of(velocities[i].id)).type != BodyType::Static) continue;
@@ -531,10 +538,17 @@ Outcome<Done> BasicWorld<S>::set_velocity(std::span<const VectorFor> velocities)
                   .reason = "a static disk has no velocity to set"};
   }
   std::vector<Slot> walls;
+  std::vector<Slot> woken;
   for (const VectorFor& target : velocities) {
     const Slot slot = slot_of(target.id);
+    if constexpr (Laws::kCurved) {
+      const std::vector<Slot> disks = wake_disks_on(slot);
+      woken.insert(woken.end(), disks.begin(), disks.end());
+    }
     rebase(slot, now_);
+    let_go(slot);
     at(slot).motion.velocity = detail::stored<S>(target.value);
+    renew_law(slot);
     if (at(slot).is_wall()) walls.push_back(slot);
   }
   for (const Slot wall : walls) {
@@ -547,20 +561,21 @@ Outcome<Done> BasicWorld<S>::set_velocity(std::span<const VectorFor> velocities)
   }
   for (const Slot wall : walls) link_vertices(wall);
   for (const VectorFor& target : velocities) enter(slot_of(target.id));
+  for (const Slot disk : woken) predict(disk, /*changed=*/true);
   crowd_ = 0;
   return Done{};
 }
 
-template <class S>
-Outcome<Done> BasicWorld<S>::apply_impulse(std::span<const VectorFor> impulses) {
+template <class S, class Laws>
+Outcome<Done> BasicWorld<S, Laws>::apply_impulse(std::span<const VectorFor> impulses) {
   if (auto reject = check_targets(impulses, "impulses")) return *reject;
   const auto after = [this](const VectorFor& target) {
-    const Body<S>& body = at(slot_of(target.id));
+    const Body<S, Laws>& body = at(slot_of(target.id));
     const auto add = [&](const DoubleWord<S>& v, double impulse) {
       return v + detail::stored<S>(impulse) / DoubleWord<S>{body.mass, S(0)};
     };
-    return DoubleWord2<S>{add(body.motion.velocity.x, target.value.x()),
-                          add(body.motion.velocity.y, target.value.y())};
+    const DoubleWord2<S> v = velocity_of(slot_of(target.id), now_);
+    return DoubleWord2<S>{add(v.x, target.value.x()), add(v.y, target.value.y())};
   };
   for (std::size_t i = 0; i < impulses.size(); ++i) {
     const VectorFor& target = impulses[i];
@@ -585,18 +600,21 @@ Outcome<Done> BasicWorld<S>::apply_impulse(std::span<const VectorFor> impulses) 
   for (const VectorFor& target : impulses) {
     const DoubleWord2<S> velocity = after(target);
     rebase(slot_of(target.id), now_);
+    let_go(slot_of(target.id));
     at(slot_of(target.id)).motion.velocity = velocity;
+    renew_law(slot_of(target.id));
   }
   for (const VectorFor& target : impulses) enter(slot_of(target.id));
   crowd_ = 0;
   return Done{};
 }
 
-template <class S>
-void BasicWorld<S>::nudge(std::uint64_t seed) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::nudge(std::uint64_t seed) {
   for (const Slot slot : ordered_slots()) {
     if (!at(slot).is_dynamic()) continue;
     rebase(slot, now_);
+    let_go(slot);
     DigestSink signs;
     signs.word(seed);
     signs.word(at(slot).id);
@@ -610,13 +628,14 @@ void BasicWorld<S>::nudge(std::uint64_t seed) {
     off(at(slot).motion.position.y);
     off(at(slot).motion.velocity.x);
     off(at(slot).motion.velocity.y);
+    renew_law(slot);
   }
   for (const Slot slot : ordered_slots()) predict(slot, /*changed=*/true);
 }
 
 // A body that comes and goes between two drains leaves no trace.
-template <class S>
-void BasicWorld<S>::note_change(Slot slot, ChangeKind kind) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::note_change(Slot slot, ChangeKind kind) {
   if (!tracking_) return;
   const Id id = at(slot).id;
   const auto [entry, is_new] = change_of_.try_emplace(id, kind);

@@ -4,7 +4,6 @@
 // The event loop and the resolution of contacts.
 
 #include "basic_world.hpp"
-#include "contact_law/elastic.hpp"
 #include "simultaneous.hpp"
 #include "squeeze.hpp"
 
@@ -12,10 +11,10 @@
 
 namespace stoss::engine {
 
-template <class S>
-Outcome<AdvanceReport> BasicWorld<S>::advance_to(const Instant& until,
-                                                 CollisionSink* sink,
-                                                 std::uint64_t max_events) {
+template <class S, class Laws>
+Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
+                                                       CollisionSink* sink,
+                                                       std::uint64_t max_events) {
   if (!in_range(until)) {
     return Reject{.code = Code::InvalidArgument,
                   .field = "instant",
@@ -51,8 +50,8 @@ Outcome<AdvanceReport> BasicWorld<S>::advance_to(const Instant& until,
 }
 
 // With STOSS_VALIDATE every so many events the whole world is looked at.
-template <class S>
-void BasicWorld<S>::validate([[maybe_unused]] std::uint64_t events) const {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::validate([[maybe_unused]] std::uint64_t events) const {
 #ifdef STOSS_VALIDATE
   constexpr std::uint64_t kEvery = 1024;
   if (events % kEvery != 0) return;
@@ -62,8 +61,8 @@ void BasicWorld<S>::validate([[maybe_unused]] std::uint64_t events) const {
 #endif
 }
 
-template <class S>
-void BasicWorld<S>::count_towards_stall() {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::count_towards_stall() {
   if (now_ != crowded_instant_) {
     crowded_instant_ = now_;
     crowd_ = 0;
@@ -72,25 +71,31 @@ void BasicWorld<S>::count_towards_stall() {
 }
 
 // Told from collisions alone, so that every run stalls at the same one.
-template <class S>
-bool BasicWorld<S>::has_stalled(const Time<S>& instant) const {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::has_stalled(const Time<S>& instant) const {
   return crowd_ >= kStallCollisions + 64 * slots_.size() && instant == crowded_instant_;
 }
 
-template <class S>
-bool BasicWorld<S>::is_stale(const Event<S>& event) const {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_stale(const Event<S>& event) const {
   return at(event.partner).id == kNoId || at(event.partner).changes != event.partner_changes;
 }
 
 // False if the event cannot be processed: the world stops before it.
-template <class S>
-bool BasicWorld<S>::process(Slot slot, CollisionSink* sink) {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   const Event<S> event = queue_.event_of(slot);
   if (event.kind == EventKind::NeighbourRenewal) {
     ++counters_.renewals;
     renew_box(slot, neighbours_.next_margin(slot));
     predict(slot, /*changed=*/true);
     return true;
+  }
+  if constexpr (Laws::kCurved) {
+    if (event.partner < 0) {
+      process_own_event(slot, event.at);
+      return true;
+    }
   }
   if (is_stale(event)) {
     predict(slot, /*changed=*/false);
@@ -107,31 +112,33 @@ bool BasicWorld<S>::process(Slot slot, CollisionSink* sink) {
 }
 
 /// How far the body flies between two instants, m.
-template <class S>
-double BasicWorld<S>::hop(Slot slot, const Time<S>& from, const Time<S>& to) const {
-  const DoubleWord2<S>& v = at(slot).motion.velocity;
+template <class S, class Laws>
+double BasicWorld<S, Laws>::hop(Slot slot, const Time<S>& from, const Time<S>& to) const {
+  const DoubleWord2<S> v = velocity_of(slot, from);
   const double speed =
       std::abs(static_cast<double>(v.x.hi)) + std::abs(static_cast<double>(v.y.hi));
-  return speed * rough_seconds(to, from);
+  const double elapsed = rough_seconds(to, from);
+  if constexpr (Laws::kCurved) return (speed + 0.5 * elapsed * pull_of(slot)) * elapsed;
+  return speed * elapsed;
 }
 
 /// Unit vector from a body to the nearest point of another, at now().
-template <class S>
-Vector2 BasicWorld<S>::normal_towards(Slot from, Slot to) const {
+template <class S, class Laws>
+Vector2 BasicWorld<S, Laws>::normal_towards(Slot from, Slot to) const {
   if (at(from).is_wall()) return -normal_towards(to, from);
-  const Vector2 centre = detail::rounded(position_at(at(from).motion, now_));
+  const Vector2 centre = detail::rounded(position_of(from, now_));
   if (at(to).is_wall()) {
     const WallState wall = wall_of(to);
     return (detail::nearest_on_segment(wall.start, wall.end, centre) - centre).normalized();
   }
-  const RelativeMotion<S> r = relative_motion(at(to).motion, at(from).motion, now_);
+  const Relative r = relative_motion(to, from, now_);
   return detail::rounded(r.position).normalized();
 }
 
 // A disk between immovable bodies that close in on it bounces without end as the room goes to zero.
 // Told from the stored motions alone: a tiny hop, and neighbours that leave it no way out.
-template <class S>
-bool BasicWorld<S>::is_squeezed(const Contact& contact) const {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_squeezed(const Contact& contact) const {
   constexpr double kRoom = 1e-4;  // of the radius; chosen: ten thousand hits into the squeeze
   const Slot disk = at(contact.a).is_dynamic() ? contact.a : contact.b;
   const Slot anvil = disk == contact.a ? contact.b : contact.a;
@@ -158,8 +165,8 @@ bool BasicWorld<S>::is_squeezed(const Contact& contact) const {
 }
 
 // Another body touches `shared` in such a way that it matters which contact comes first.
-template <class S>
-bool BasicWorld<S>::depends_on_order(Slot shared, Slot other, const Vector2& normal) const {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::depends_on_order(Slot shared, Slot other, const Vector2& normal) const {
   const auto weight = [this](Slot slot) {
     return at(slot).is_dynamic() ? 1 / static_cast<double>(at(slot).mass) : 0.0;
   };
@@ -168,7 +175,7 @@ bool BasicWorld<S>::depends_on_order(Slot shared, Slot other, const Vector2& nor
   for_each_neighbour(shared, [&](Slot third) {
     if (depends || third == other) return;
     if (clearance(shared, third) > kSimultaneousHop * reach_of(shared, third)) return;
-    depends = order_matters(
+    depends = order_matters_between(
         normal, normal_towards(shared, third), weight(shared), weight(other), weight(third));
   });
   return depends;
@@ -176,16 +183,16 @@ bool BasicWorld<S>::depends_on_order(Slot shared, Slot other, const Vector2& nor
 
 // Called after the contact is resolved and its bodies predicted: has one of them just come from
 // another contact, or is it just about to enter one? If so, do the two depend on their order?
-template <class S>
-bool BasicWorld<S>::is_simultaneous(const Contact& contact,
-                                    const Time<S>& before_a,
-                                    const Time<S>& before_b) const {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_simultaneous(const Contact& contact,
+                                          const Time<S>& before_a,
+                                          const Time<S>& before_b) const {
   const auto crowded = [this](Slot slot, const Time<S>& before) {
     if (!at(slot).is_dynamic()) return false;
     const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
     if (hop(slot, before, now_) <= tiny) return true;
     const Event<S>& next = queue_.event_of(slot);
-    return next.kind != EventKind::NeighbourRenewal && hop(slot, now_, next.at) <= tiny;
+    return next.partner >= 0 && hop(slot, now_, next.at) <= tiny;
   };
   if (!crowded(contact.a, before_a) && !crowded(contact.b, before_b)) return false;
   const Vector2 normal = normal_towards(contact.a, contact.b);
@@ -194,11 +201,13 @@ bool BasicWorld<S>::is_simultaneous(const Contact& contact,
 }
 
 // From a to b; only its direction matters to the contact law.
-template <class S>
-DoubleWord2<S> BasicWorld<S>::contact_vector(const Contact& contact) const {
+template <class S, class Laws>
+DoubleWord2<S> BasicWorld<S, Laws>::contact_vector(const Contact& contact) const {
   if (contact.kind == EventKind::DiskWall) {
     const DoubleWord2<S>& edge = shape(contact.b).edge;
-    const DoubleWord2<S>& q = contact.relative.position;
+    const DoubleWord2<S> q = Laws::kCurved
+                                 ? displacement_at<S>(contact.relative, contact.after_reference)
+                                 : contact.relative.position;
     const DoubleWord<S> side = edge.x * q.y - edge.y * q.x;
     return side.hi > S(0) ? DoubleWord2<S>{edge.y, -edge.x} : DoubleWord2<S>{-edge.y, edge.x};
   }
@@ -206,64 +215,66 @@ DoubleWord2<S> BasicWorld<S>::contact_vector(const Contact& contact) const {
   return contact.kind == EventKind::DiskDisk ? apart : DoubleWord2<S>{-apart.x, -apart.y};
 }
 
-template <class S>
-void BasicWorld<S>::rebase(Slot slot, const Time<S>& instant) {
-  Body<S>& body = at(slot);
-  if (!rotations_.empty()) {
-    const auto rotation = rotations_.find(slot);
-    if (rotation != rotations_.end()) {
-      rotation->second.angle = turned(rotation->second.angle,
-                                      rotation->second.spin,
-                                      to_instant(body.motion.since),
-                                      to_instant(instant));
-    }
-  }
-  body.motion.position = position_at(body.motion, instant);
+template <class S, class Laws>
+void BasicWorld<S, Laws>::rebase(Slot slot, const Time<S>& instant) {
+  Body<S, Laws>& body = at(slot);
+  turn(slot, instant);
+  const DoubleWord2<S> position = position_of(slot, instant);
+  body.motion.velocity = velocity_of(slot, instant);
+  body.motion.position = position;
   body.motion.since = instant;
   ++body.changes;
   note_digest_stale(slot);
   note_change(slot, ChangeKind::Moved);
 }
 
-template <class S>
-void BasicWorld<S>::resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink) {
-  Body<S>& a = at(contact.a);
-  Body<S>& b = at(contact.b);
+template <class S, class Laws>
+void BasicWorld<S, Laws>::resolve(const Contact& contact,
+                                  const Time<S>& instant,
+                                  CollisionSink* sink) {
+  Body<S, Laws>& a = at(contact.a);
+  Body<S, Laws>& b = at(contact.b);
   const Time<S> before_a = a.motion.since;
   const Time<S> before_b = b.motion.since;
-  const DoubleWord2<S> velocity{b.motion.velocity.x - a.motion.velocity.x,
-                                b.motion.velocity.y - a.motion.velocity.y};
-  const PairImpulse<S> impulse = elastic_impulse<S>(
-      contact_vector(contact), velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic());
-  const auto kick = [&](Slot slot, const DoubleWord2<S>& delta) {
-    Body<S>& body = at(slot);
+  const ContactOutcome outcome = impulse_of(contact, instant);
+  const auto kick = [&](Slot slot, const DoubleWord2<S>& delta, const DoubleWord<S>& spin) {
+    Body<S, Laws>& body = at(slot);
     if (!body.is_dynamic()) return;
     rebase(slot, instant);
-    body.motion.velocity = {body.motion.velocity.x + delta.x, body.motion.velocity.y + delta.y};
+    let_go(slot);
+    note_contact(slot, spin, instant);
+    body.motion.velocity = body.motion.velocity + delta;
+    renew_law(slot);
   };
-  kick(contact.a, impulse.delta_a);
-  kick(contact.b, impulse.delta_b);
+  kick(contact.a, outcome.impulse.delta_a, outcome.spins.a);
+  kick(contact.b, outcome.impulse.delta_b, outcome.spins.b);
+  if constexpr (Laws::kCurved) {
+    if (outcome.is_last_bounce) settle_down(contact);
+  }
   ++counters_.collisions;
+  if (outcome.regularised) ++counters_.regularised;
   if (a.is_dynamic()) predict(contact.a, /*changed=*/true);
   if (b.is_dynamic()) predict(contact.b, /*changed=*/true);
   if (sink == nullptr) return;
-  Collision collision = describe(contact, instant, impulse);
+  Collision collision = describe(contact, instant, outcome);
   collision.order_dependent = is_simultaneous(contact, before_a, before_b);
   sink->on_collision(collision);
 }
 
-template <class S>
-Collision BasicWorld<S>::describe(const Contact& contact,
-                                  const Time<S>& instant,
-                                  const PairImpulse<S>& impulse) const {
-  const Body<S>& a = at(contact.a);
-  const Body<S>& b = at(contact.b);
-  const DoubleWord2<S> centre = position_at(a.motion, instant);
+template <class S, class Laws>
+Collision BasicWorld<S, Laws>::describe(const Contact& contact,
+                                        const Time<S>& instant,
+                                        const ContactOutcome& outcome) const {
+  const PairImpulse<S>& impulse = outcome.impulse;
+  const Body<S, Laws>& a = at(contact.a);
+  const Body<S, Laws>& b = at(contact.b);
+  const DoubleWord2<S> centre = position_of(contact.a, instant);
   Collision collision;
   collision.sequence = counters_.collisions;
   collision.instant = to_instant(instant);
   collision.kind = static_cast<ContactKind>(static_cast<int>(contact.kind) -
                                             static_cast<int>(EventKind::DiskDisk));
+  collision.regularised = outcome.regularised;
   collision.a = a.id;
   collision.b = b.id;
   collision.normal = {static_cast<double>(impulse.normal_x), static_cast<double>(impulse.normal_y)};

@@ -9,32 +9,32 @@
 
 namespace stoss::engine {
 
-template <class S>
-auto BasicWorld<S>::id_lookup() const {
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::id_lookup() const {
   return [this](Slot slot, const Event<S>& event) {
     const Id own = at(slot).id;
-    if (event.kind == EventKind::NeighbourRenewal) return IdPair{own, own};
+    if (event.partner < 0) return IdPair{own, own};
     const Id other = event.partner_id;
     return own < other ? IdPair{own, other} : IdPair{other, own};
   };
 }
 
-template <class S>
-bool BasicWorld<S>::interacts(Slot a, Slot b) const {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::interacts(Slot a, Slot b) const {
   return a != b && (at(a).is_dynamic() || at(b).is_dynamic());
 }
 
-template <class S>
-bool BasicWorld<S>::holds_prediction(Slot holder, Slot other) const {
-  const Body<S>& h = at(holder);
-  const Body<S>& o = at(other);
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::holds_prediction(Slot holder, Slot other) const {
+  const Body<S, Laws>& h = at(holder);
+  const Body<S, Laws>& o = at(other);
   if (h.is_dynamic() != o.is_dynamic()) return h.is_dynamic();
   return !(h.radius > S(kHolderRatioMax) * o.radius);
 }
 
-template <class S>
+template <class S, class Laws>
 template <class Visit>
-void BasicWorld<S>::for_each_neighbour(Slot slot, Visit&& visit) const {
+void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
   if (all_pairs()) {
     for (Slot other = 0; index(other) < bodies_.size(); ++other) {
       if (at(other).id != kNoId && interacts(slot, other)) visit(other);
@@ -44,21 +44,23 @@ void BasicWorld<S>::for_each_neighbour(Slot slot, Visit&& visit) const {
   }
 }
 
-template <class S>
-RelativeMotion<S> BasicWorld<S>::relative_motion(const Motion<S>& of,
-                                                 const Motion<S>& from,
-                                                 const Time<S>& reference) const {
-  const DoubleWord2<S> p = position_at(of, reference);
-  const DoubleWord2<S> q = position_at(from, reference);
-  return {{p.x - q.x, p.y - q.y},
-          {of.velocity.x - from.velocity.x, of.velocity.y - from.velocity.y},
-          velocity_grain(of.velocity, from.velocity)};
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::relative_motion(Slot of, Slot from, const Time<S>& reference) const
+    -> Relative {
+  const DoubleWord2<S> position = position_of(of, reference) - position_of(from, reference);
+  const DoubleWord2<S> v = velocity_of(of, reference);
+  const DoubleWord2<S> u = velocity_of(from, reference);
+  if constexpr (Laws::kCurved) {
+    return {position, v - u, at(of).acceleration - at(from).acceleration, velocity_grain(v, u)};
+  } else {
+    return {position, v - u, velocity_grain(v, u)};
+  }
 }
 
-template <class S>
-auto BasicWorld<S>::disk_disk_contact_of(Slot a, Slot b) const -> std::optional<Contact> {
-  const Body<S>& first = at(a);
-  const Body<S>& second = at(b);
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::disk_disk_contact_of(Slot a, Slot b) const -> std::optional<Contact> {
+  const Body<S, Laws>& first = at(a);
+  const Body<S, Laws>& second = at(b);
   Contact contact{.a = a,
                   .b = b,
                   .kind = EventKind::DiskDisk,
@@ -66,83 +68,90 @@ auto BasicWorld<S>::disk_disk_contact_of(Slot a, Slot b) const -> std::optional<
                   .reference = std::max(first.motion.since, second.motion.since),
                   .relative = {},
                   .after_reference = {}};
-  contact.relative = relative_motion(second.motion, first.motion, contact.reference);
-  const auto after = disk_disk_contact<S>(contact.relative, two_sum(first.radius, second.radius));
+  contact.relative = relative_motion(b, a, contact.reference);
+  const auto after = Laws::pair_contact(
+      contact.relative, two_sum(first.radius, second.radius), valid_for(a, b, contact.reference));
   if (!after) return std::nullopt;
   contact.after_reference = *after;
   return contact;
 }
 
-template <class S>
-DoubleWord2<S> BasicWorld<S>::edge_from(const WallEnd& vertex) const {
+template <class S, class Laws>
+DoubleWord2<S> BasicWorld<S, Laws>::edge_from(const WallEnd& vertex) const {
   const DoubleWord2<S>& edge = shape(vertex.wall).edge;
   return vertex.end == 0 ? edge : DoubleWord2<S>{-edge.x, -edge.y};
 }
 
-template <class S>
-RelativeMotion<S> BasicWorld<S>::motion_from_end(const RelativeMotion<S>& from_start,
-                                                 Slot wall,
-                                                 int end) const {
-  if (end == 0) return from_start;
-  const DoubleWord2<S>& edge = shape(wall).edge;
-  return {{from_start.position.x - edge.x, from_start.position.y - edge.y},
-          from_start.velocity,
-          from_start.grain};
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::motion_from_end(const Relative& from_start, Slot wall, int end) const
+    -> Relative {
+  Relative from_end = from_start;
+  if (end != 0) from_end.position = from_start.position - shape(wall).edge;
+  return from_end;
 }
 
 // At a shared vertex a contact belongs to a face if the centre then projects inside one of the
 // walls that meet there: the disk already touches or has left that face, and the vertex is not in
 // its way.
-template <class S>
-bool BasicWorld<S>::hidden_by_faces(const RelativeMotion<S>& from_vertex,
-                                    Slot wall,
-                                    int end,
-                                    const Duration<S>& after) const {
-  if (projects_inside<S>(from_vertex, edge_from({wall, end}), after)) return true;
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::hidden_by_faces(const Relative& from_vertex,
+                                          Slot wall,
+                                          int end,
+                                          const Duration<S>& after,
+                                          bool has_left_face) const {
+  if (!has_left_face && projects_inside(from_vertex, edge_from({wall, end}), after)) return true;
   for (const WallEnd& other : shape(wall).incident[static_cast<std::size_t>(end)]) {
-    if (projects_inside<S>(from_vertex, edge_from(other), after)) return true;
+    if (projects_inside(from_vertex, edge_from(other), after)) return true;
   }
   return false;
 }
 
-template <class S>
-auto BasicWorld<S>::disk_wall_contact_of(Slot disk, Slot wall) const -> std::optional<Contact> {
-  const Body<S>& d = at(disk);
-  const Body<S>& w = at(wall);
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::disk_wall_contact_of(Slot disk, Slot wall) const
+    -> std::optional<Contact> {
+  const Body<S, Laws>& d = at(disk);
+  const Body<S, Laws>& w = at(wall);
   const Time<S> reference = std::max(d.motion.since, w.motion.since);
-  const RelativeMotion<S> from_start = relative_motion(d.motion, w.motion, reference);
+  const Relative from_start = relative_motion(disk, wall, reference);
+  const S valid = valid_for(disk, wall, reference);
   std::optional<Contact> best;
-  const auto consider = [&](EventKind kind,
-                            WallFeature feature,
-                            const RelativeMotion<S>& relative,
-                            const Duration<S>& after) {
-    const bool sooner =
-        !best || after.hi < best->after_reference.hi ||
-        (after.hi == best->after_reference.hi && after.lo < best->after_reference.lo);
-    if (sooner) best = Contact{disk, wall, kind, feature, reference, relative, after};
-  };
-  if (const auto after = disk_wall_face_contact<S>(from_start, shape(wall).edge, d.radius)) {
-    consider(EventKind::DiskWall, WallFeature::Face, from_start, *after);
+  const auto consider =
+      [&](EventKind kind, WallFeature feature, const Relative& relative, const Duration<S>& after) {
+        const bool sooner =
+            !best || after.hi < best->after_reference.hi ||
+            (after.hi == best->after_reference.hi && after.lo < best->after_reference.lo);
+        if (sooner) best = Contact{disk, wall, kind, feature, reference, relative, after};
+      };
+  // A disk that has slid off a face at an end does not come back to it but by way of that end.
+  bool has_left_face = false;
+  if constexpr (Laws::kCurved) has_left_face = d.slid_off == w.id;
+  if (!has_left_face) {
+    if (const auto after = Laws::face_contact(from_start, shape(wall).edge, d.radius, valid)) {
+      consider(EventKind::DiskWall, WallFeature::Face, from_start, *after);
+    }
   }
   for (int end = 0; end < 2; ++end) {
-    const RelativeMotion<S> from_end = motion_from_end(from_start, wall, end);
-    const auto after = disk_point_contact<S>(from_end, d.radius);
-    if (!after || hidden_by_faces(from_end, wall, end, *after)) continue;
+    const Relative from_end = motion_from_end(from_start, wall, end);
+    const auto after = Laws::point_contact(from_end, d.radius, valid);
+    if (!after || hidden_by_faces(from_end, wall, end, *after, has_left_face)) continue;
     consider(
         EventKind::DiskWallEnd, end == 0 ? WallFeature::Start : WallFeature::End, from_end, *after);
   }
   return best;
 }
 
-template <class S>
-auto BasicWorld<S>::contact_of(Slot i, Slot j) const -> std::optional<Contact> {
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::contact_of(Slot i, Slot j) const -> std::optional<Contact> {
+  if constexpr (Laws::kCurved) {
+    if (rests_on(i, j)) return std::nullopt;
+  }
   if (at(j).is_wall()) return disk_wall_contact_of(i, j);
   if (at(i).is_wall()) return disk_wall_contact_of(j, i);
   return at(i).id < at(j).id ? disk_disk_contact_of(i, j) : disk_disk_contact_of(j, i);
 }
 
-template <class S>
-std::optional<Event<S>> BasicWorld<S>::event_with(Slot holder, Slot partner) const {
+template <class S, class Laws>
+std::optional<Event<S>> BasicWorld<S, Laws>::event_with(Slot holder, Slot partner) const {
   const std::optional<Contact> contact = contact_of(holder, partner);
   if (!contact) return std::nullopt;
   const auto instant =
@@ -152,45 +161,56 @@ std::optional<Event<S>> BasicWorld<S>::event_with(Slot holder, Slot partner) con
 }
 
 // When the body's displacement from its box's anchor reaches the margin, a little early.
-template <class S>
-Event<S> BasicWorld<S>::renewal_event(Slot slot, const Glance& here) const {
+template <class S, class Laws>
+Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const {
   Event<S> event;
   if (all_pairs()) return event;
-  if (here.vx == 0 && here.vy == 0) return event;
+  double pull = 0;
+  if constexpr (Laws::kCurved) pull = pull_of(slot);
+  if (here.vx == 0 && here.vy == 0 && pull == 0) return event;
   constexpr double kEarly = 1 - kScreenSlack<S>;
   const Glance& anchor = neighbours_.anchor(slot);
   const double margin = neighbours_.margin(slot) * kEarly;
   const double moved_x = (here.x - anchor.x) + (here.x_low - anchor.x_low);
   const double moved_y = (here.y - anchor.y) + (here.y_low - anchor.y_low);
   double after = std::numeric_limits<double>::infinity();
-  if (here.vx != 0) {
-    after =
-        std::min(after, (margin - std::copysign(moved_x, moved_x * here.vx)) / std::abs(here.vx));
-  }
-  if (here.vy != 0) {
-    after =
-        std::min(after, (margin - std::copysign(moved_y, moved_y * here.vy)) / std::abs(here.vy));
-  }
+  const auto leave = [&](double moved, double v) {
+    if constexpr (Laws::kCurved) {
+      after = std::min(after, shortest_crossing(margin - std::abs(moved), std::abs(v), pull));
+    } else if (v != 0) {
+      after = std::min(after, (margin - std::copysign(moved, moved * v)) / std::abs(v));
+    }
+  };
+  leave(moved_x, here.vx);
+  leave(moved_y, here.vy);
   if (const auto instant = later_by(now_, S(std::max(after, 0.0)), S(0))) event.at = *instant;
   return event;
 }
 
 /// Seconds until an event, a little more; infinity for one that never comes.
-template <class S>
-double BasicWorld<S>::horizon_of(const Event<S>& event) const {
+template <class S, class Laws>
+double BasicWorld<S, Laws>::horizon_of(const Event<S>& event) const {
   if (event.at == Time<S>::never()) return std::numeric_limits<double>::infinity();
   return rough_seconds(event.at, now_) + 1e-15;
 }
 
 // Can the two meet within `horizon` seconds? A "no" is certain.
-template <class S>
-bool BasicWorld<S>::may_meet(Slot slot, const Glance& here, Slot other, double horizon) const {
-  const Body<S>& own = at(slot);
-  const Body<S>& theirs = at(other);
-  const Glance there = glance<S>(theirs.motion, now_);
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::may_meet(Slot slot,
+                                   const Glance& here,
+                                   Slot other,
+                                   double horizon) const {
+  const Body<S, Laws>& own = at(slot);
+  const Body<S, Laws>& theirs = at(other);
+  const Glance there = glance_of(other);
+  double bend = 0;  // by how far accelerations can lead off the straight line, m
+  if constexpr (Laws::kCurved) {
+    bend = 0.5 * horizon * horizon * (pull_of(slot) + pull_of(other)) * (1 + kScreenSlack<S>);
+    if (!(bend < std::numeric_limits<double>::infinity())) return true;
+  }
   if (own.is_wall() || theirs.is_wall()) {
     const DoubleWord2<S>& edge = own.is_wall() ? shape(slot).edge : shape(other).edge;
-    const auto radius = static_cast<double>(own.is_wall() ? theirs.radius : own.radius);
+    const auto radius = static_cast<double>(own.is_wall() ? theirs.radius : own.radius) + bend;
     return disk_may_meet_wall(own.is_wall() ? there : here,
                               own.is_wall() ? here : there,
                               radius,
@@ -199,17 +219,24 @@ bool BasicWorld<S>::may_meet(Slot slot, const Glance& here, Slot other, double h
                               horizon,
                               kScreenSlack<S>);
   }
-  const double reach = static_cast<double>(own.radius) + static_cast<double>(theirs.radius);
+  const double reach = static_cast<double>(own.radius) + static_cast<double>(theirs.radius) + bend;
+  if constexpr (Laws::kCurved) {
+    if (disks_are_within(here, there, reach, kScreenSlack<S>)) return true;  // they may turn back
+  }
   return disks_may_meet(here, there, reach, horizon, kScreenSlack<S>);
 }
 
 // Finds the body's next event among those that it holds. If the body has changed, the pairs that
 // its neighbours hold are offered to them.
-template <class S>
-void BasicWorld<S>::predict(Slot slot, bool changed) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::predict(Slot slot, bool changed) {
   const auto ids = id_lookup();
-  const Glance here = glance<S>(at(slot).motion, now_);
+  const Glance here = glance_of(slot);
   Event<S> best = renewal_event(slot, here);
+  if constexpr (Laws::kCurved) {
+    const auto own = own_event(slot);
+    if (own && earlier(*own, slot, best, slot, ids)) best = *own;
+  }
   double horizon = horizon_of(best);
   for_each_neighbour(slot, [&](Slot other) {
     if (holds_prediction(slot, other)) {
@@ -230,10 +257,10 @@ void BasicWorld<S>::predict(Slot slot, bool changed) {
 }
 
 /// The body's extent at now(), in doubles, and what rounding may add to it.
-template <class S>
-Aabb BasicWorld<S>::tight_box(Slot slot) const {
-  const Body<S>& body = at(slot);
-  const Glance here = glance<S>(body.motion, now_);
+template <class S, class Laws>
+Aabb BasicWorld<S, Laws>::tight_box(Slot slot) const {
+  const Body<S, Laws>& body = at(slot);
+  const Glance here = glance_of(slot);
   const double x = here.x + here.x_low;
   const double y = here.y + here.y_low;
   const double r = static_cast<double>(body.radius) * (1 + kScreenSlack<S>)+here.error;
@@ -247,22 +274,22 @@ Aabb BasicWorld<S>::tight_box(Slot slot) const {
 }
 
 // A margin that the body needs some time to cross, so that renewals cannot crowd into an instant.
-template <class S>
-double BasicWorld<S>::smallest_margin(Slot slot) const {
+template <class S, class Laws>
+double BasicWorld<S, Laws>::smallest_margin(Slot slot) const {
   constexpr double kShortestCrossing = 1e-9;  // s; chosen: far above the resolution of an Instant
   constexpr double kPartOfRadius = 1e-3;
-  const Motion<S>& motion = at(slot).motion;
-  const double speed = std::abs(static_cast<double>(motion.velocity.x.hi)) +
-                       std::abs(static_cast<double>(motion.velocity.y.hi));
+  const DoubleWord2<S> v = velocity_of(slot, now_);
+  const double speed =
+      std::abs(static_cast<double>(v.x.hi)) + std::abs(static_cast<double>(v.y.hi));
   return std::max(speed * kShortestCrossing, static_cast<double>(at(slot).radius) * kPartOfRadius);
 }
 
-template <class S>
-void BasicWorld<S>::renew_box(Slot slot, double margin) {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
   if (all_pairs()) return;
   neighbours_.renew(slot,
                     tight_box(slot),
-                    glance<S>(at(slot).motion, now_),
+                    glance_of(slot),
                     std::max(margin, smallest_margin(slot)),
                     [this, slot](Slot other) { return interacts(slot, other); });
 }

@@ -11,13 +11,13 @@
 
 namespace stoss::engine {
 
-template <class S>
-Reject BasicWorld<S>::not_found(Id id) const {
+template <class S, class Laws>
+Reject BasicWorld<S, Laws>::not_found(Id id) const {
   return {.code = Code::NotFound, .field = "id", .body = id, .reason = "no such body"};
 }
 
-template <class S>
-const std::vector<Slot>& BasicWorld<S>::ordered_slots() const {
+template <class S, class Laws>
+const std::vector<Slot>& BasicWorld<S, Laws>::ordered_slots() const {
   if (!ordered_valid_) {
     ordered_.clear();
     for (Slot slot = 0; index(slot) < bodies_.size(); ++slot) {
@@ -30,12 +30,6 @@ const std::vector<Slot>& BasicWorld<S>::ordered_slots() const {
   return ordered_;
 }
 
-template <class S>
-Rotation BasicWorld<S>::rotation_of(Slot slot) const {
-  const auto rotation = rotations_.find(slot);
-  return rotation == rotations_.end() ? Rotation{} : rotation->second;
-}
-
 namespace detail {
 
 template <class S>
@@ -45,17 +39,17 @@ Vector2 rounded(const DoubleWord2<S>& v) {
 
 }  // namespace detail
 
-template <class S>
-BodyState BasicWorld<S>::state_of(Slot slot) const {
-  const Body<S>& body = at(slot);
+template <class S, class Laws>
+BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {
+  const Body<S, Laws>& body = at(slot);
   BodyState state;
   state.id = body.id;
   state.kind = kind_of(body.type);
   state.instant = to_instant(now_);
-  state.position = detail::rounded(position_at(body.motion, now_));
-  state.velocity = detail::rounded(body.motion.velocity);
+  state.position = detail::rounded(position_of(slot, now_));
+  state.velocity = detail::rounded(velocity_of(slot, now_));
   state.radius = static_cast<double>(body.radius);
-  if (!rotations_.empty()) {
+  if (!Laws::kPlain || !rotations_.empty()) {
     const Rotation rotation = rotation_of(slot);
     state.angle =
         turned(rotation.angle, rotation.spin, to_instant(body.motion.since), state.instant);
@@ -64,10 +58,10 @@ BodyState BasicWorld<S>::state_of(Slot slot) const {
   return state;
 }
 
-template <class S>
-WallState BasicWorld<S>::wall_of(Slot slot) const {
-  const Body<S>& body = at(slot);
-  const DoubleWord2<S> start = position_at(body.motion, now_);
+template <class S, class Laws>
+WallState BasicWorld<S, Laws>::wall_of(Slot slot) const {
+  const Body<S, Laws>& body = at(slot);
+  const DoubleWord2<S> start = position_of(slot, now_);
   const DoubleWord2<S>& edge = shape(slot).edge;
   return {body.id,
           to_instant(now_),
@@ -76,46 +70,48 @@ WallState BasicWorld<S>::wall_of(Slot slot) const {
           detail::rounded(body.motion.velocity)};
 }
 
-template <class S>
-Outcome<BodyState> BasicWorld<S>::state(Id id) const {
+template <class S, class Laws>
+Outcome<BodyState> BasicWorld<S, Laws>::state(Id id) const {
   const auto found = slots_.find(id);
   if (found == slots_.end() || at(found->second).is_wall()) return not_found(id);
   return state_of(found->second);
 }
 
-template <class S>
-Outcome<WallState> BasicWorld<S>::wall(Id id) const {
+template <class S, class Laws>
+Outcome<WallState> BasicWorld<S, Laws>::wall(Id id) const {
   const auto found = slots_.find(id);
   if (found == slots_.end() || !at(found->second).is_wall()) return not_found(id);
   return wall_of(found->second);
 }
 
-template <class S>
-void BasicWorld<S>::for_each_disk(const std::function<void(const BodyState&)>& visit) const {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::for_each_disk(const std::function<void(const BodyState&)>& visit) const {
   for (const Slot slot : ordered_slots()) {
     if (!at(slot).is_wall()) visit(state_of(slot));
   }
 }
 
-template <class S>
-void BasicWorld<S>::for_each_wall(const std::function<void(const WallState&)>& visit) const {
+template <class S, class Laws>
+void BasicWorld<S, Laws>::for_each_wall(const std::function<void(const WallState&)>& visit) const {
   for (const Slot slot : ordered_slots()) {
     if (at(slot).is_wall()) visit(wall_of(slot));
   }
 }
 
-template <class S>
-Conserved BasicWorld<S>::conserved() const {
+template <class S, class Laws>
+Conserved BasicWorld<S, Laws>::conserved() const {
   DoubleWord<S> energy{};
   DoubleWord2<S> momentum{};
+  double potential = 0;
   for (const Slot slot : ordered_slots()) {
-    const Body<S>& body = at(slot);
+    const Body<S, Laws>& body = at(slot);
     if (!body.is_dynamic()) continue;
-    const DoubleWord2<S>& v = body.motion.velocity;
-    energy = energy + square_norm(v) * body.mass;
+    const DoubleWord2<S> v = velocity_of(slot, now_);
+    energy = energy + square_norm(v) * body.mass + twice_spin_energy(body);
+    if constexpr (Laws::kCurved) potential += potential_energy(slot);
     momentum = {momentum.x + v.x * body.mass, momentum.y + v.y * body.mass};
   }
-  return {0.5 * static_cast<double>(to_scalar(energy)), 0, detail::rounded(momentum)};
+  return {0.5 * static_cast<double>(to_scalar(energy)), potential, detail::rounded(momentum)};
 }
 
 namespace detail {
@@ -150,8 +146,8 @@ inline bool segment_meets_box(const Vector2& a,
 
 }  // namespace detail
 
-template <class S>
-bool BasicWorld<S>::touches(Slot slot, const Vector2& low, const Vector2& high) const {
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::touches(Slot slot, const Vector2& low, const Vector2& high) const {
   if (at(slot).is_wall()) {
     const WallState wall = wall_of(slot);
     return detail::segment_meets_box(wall.start, wall.end, low, high);
@@ -161,8 +157,8 @@ bool BasicWorld<S>::touches(Slot slot, const Vector2& low, const Vector2& high) 
   return (disk.position - nearest).norm() <= disk.radius;
 }
 
-template <class S>
-std::vector<Id> BasicWorld<S>::region(const Vector2& low, const Vector2& high) const {
+template <class S, class Laws>
+std::vector<Id> BasicWorld<S, Laws>::region(const Vector2& low, const Vector2& high) const {
   std::vector<Id> inside;
   if (all_pairs()) {
     for (const Slot slot : ordered_slots()) {
@@ -177,8 +173,8 @@ std::vector<Id> BasicWorld<S>::region(const Vector2& low, const Vector2& high) c
   return inside;
 }
 
-template <class S>
-double BasicWorld<S>::distance_to(Slot slot, const Vector2& point) const {
+template <class S, class Laws>
+double BasicWorld<S, Laws>::distance_to(Slot slot, const Vector2& point) const {
   if (at(slot).is_wall()) {
     const WallState wall = wall_of(slot);
     return (point - detail::nearest_on_segment(wall.start, wall.end, point)).norm();
@@ -187,8 +183,8 @@ double BasicWorld<S>::distance_to(Slot slot, const Vector2& point) const {
   return (point - disk.position).norm() - disk.radius;
 }
 
-template <class S>
-std::vector<Near> BasicWorld<S>::nearest(const Vector2& point, std::size_t count) const {
+template <class S, class Laws>
+std::vector<Near> BasicWorld<S, Laws>::nearest(const Vector2& point, std::size_t count) const {
   std::vector<Near> all;
   all.reserve(slots_.size());
   for (const Slot slot : ordered_slots()) all.push_back({at(slot).id, distance_to(slot, point)});
@@ -237,10 +233,10 @@ inline std::optional<double> ray_segment(const Vector2& o,
 
 }  // namespace detail
 
-template <class S>
-std::optional<RayHit> BasicWorld<S>::ray_meets(Slot slot,
-                                               const Vector2& origin,
-                                               const Vector2& unit) const {
+template <class S, class Laws>
+std::optional<RayHit> BasicWorld<S, Laws>::ray_meets(Slot slot,
+                                                     const Vector2& origin,
+                                                     const Vector2& unit) const {
   RayHit hit{.id = at(slot).id};
   std::optional<double> distance;
   if (at(slot).is_wall()) {
@@ -260,10 +256,10 @@ std::optional<RayHit> BasicWorld<S>::ray_meets(Slot slot,
   return hit;
 }
 
-template <class S>
-std::optional<RayHit> BasicWorld<S>::ray(const Vector2& origin,
-                                         const Vector2& direction,
-                                         double length_max) const {
+template <class S, class Laws>
+std::optional<RayHit> BasicWorld<S, Laws>::ray(const Vector2& origin,
+                                               const Vector2& direction,
+                                               double length_max) const {
   const double length = direction.stableNorm();
   if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
   const Vector2 unit = direction / length;
@@ -277,22 +273,26 @@ std::optional<RayHit> BasicWorld<S>::ray(const Vector2& origin,
   return first;
 }
 
-template <class S>
-Outcome<MotionRecord> BasicWorld<S>::motion(Id id) const {
+template <class S, class Laws>
+Outcome<MotionRecord> BasicWorld<S, Laws>::motion(Id id) const {
   const auto found = slots_.find(id);
   if (found == slots_.end()) return not_found(id);
   MotionRecord record = to_record(id, at(found->second).motion);
   const Rotation rotation = rotation_of(found->second);
   record.angle = rotation.angle;
   record.spin = rotation.spin;
+  if constexpr (Laws::kCurved) {
+    record.ax = to_split(at(found->second).acceleration.x);
+    record.ay = to_split(at(found->second).acceleration.y);
+  }
   return record;
 }
 
-template <class S>
-Outcome<BodyRecord> BasicWorld<S>::body(Id id) const {
+template <class S, class Laws>
+Outcome<BodyRecord> BasicWorld<S, Laws>::body(Id id) const {
   const auto found = slots_.find(id);
   if (found == slots_.end()) return not_found(id);
-  const Body<S>& b = at(found->second);
+  const Body<S, Laws>& b = at(found->second);
   BodyRecord record;
   record.id = id;
   record.is_wall = b.is_wall();
@@ -307,16 +307,16 @@ Outcome<BodyRecord> BasicWorld<S>::body(Id id) const {
   return record;
 }
 
-template <class S>
-std::vector<Id> BasicWorld<S>::ids() const {
+template <class S, class Laws>
+std::vector<Id> BasicWorld<S, Laws>::ids() const {
   std::vector<Id> result;
   result.reserve(slots_.size());
   for (const Slot slot : ordered_slots()) result.push_back(at(slot).id);
   return result;
 }
 
-template <class S>
-std::vector<Change> BasicWorld<S>::drain_changes() {
+template <class S, class Laws>
+std::vector<Change> BasicWorld<S, Laws>::drain_changes() {
   std::vector<Change> changes;
   if (!tracking_) {
     tracking_ = true;

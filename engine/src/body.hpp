@@ -20,8 +20,9 @@ enum class BodyType : std::uint8_t { Dynamic = 0, Kinematic = 1, Static = 2, Wal
 inline BodyType type_of(BodyKind kind) { return static_cast<BodyType>(kind); }
 inline BodyKind kind_of(BodyType type) { return static_cast<BodyKind>(type); }
 
-template <class S>
-struct Body {
+/// `Laws`: one of laws.hpp, whose part of a body is empty unless it needs one.
+template <class S, class Laws>
+struct Body : Laws::template BodyPart<S> {
   Motion<S> motion;           ///< of the centre; of a wall's start
   S radius{};                 ///< m; 0 for a wall
   S mass{};                   ///< kg; 0 for a wall
@@ -34,7 +35,7 @@ struct Body {
   bool is_dynamic() const { return type == BodyType::Dynamic; }
 };
 
-/// The turning of a disk that turns. Kept apart: no contact law here reads it.
+/// The turning of a disk that turns. In a world of smooth disks it is kept apart: no law reads it.
 struct Rotation {
   double angle = 0;  ///< rad, at the motion's `since`
   double spin = 0;   ///< rad/s

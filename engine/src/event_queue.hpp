@@ -24,12 +24,13 @@ enum class EventKind : std::uint8_t {
   DiskDisk = 1,
   DiskWall = 2,
   DiskWallEnd = 3,
+  LawChange = 4,  ///< of one body by itself: its stop, or the end of its slide
 };
 
 template <class S>
 struct Event {
   Time<S> at = Time<S>::never();
-  std::int32_t partner = -1;          ///< slot of the other body
+  std::int32_t partner = -1;          ///< slot of the other body; -1: an event of one body alone
   std::uint32_t partner_changes = 0;  ///< the partner's count when this was predicted
   EventKind kind = EventKind::NeighbourRenewal;
   Id partner_id = kNoId;  ///< kept here: a slot may be given to another body while the event waits

@@ -37,6 +37,9 @@ inline constexpr double kFlightSlack = 1e-14;
 template <>
 inline constexpr double kFlightSlack<float> = 4e-12;
 
+/// s; a hundred times the rounding of a number of seconds from rough_seconds().
+inline constexpr double kClock = 1e-14;
+
 /// Position and velocity at the present, in doubles, and how far off the position may be.
 struct Glance {
   double x = 0;
@@ -72,10 +75,24 @@ Glance glance(const Motion<S>& motion, const Time<S>& now) {
   g.y = static_cast<double>(motion.position.y.hi);
   g.x_low = static_cast<double>(motion.position.x.lo) + flown_x;
   g.y_low = static_cast<double>(motion.position.y.lo) + flown_y;
-  constexpr double kClock = 1e-14;  // s; a hundred times the rounding of `elapsed`
   const double speed = std::abs(g.vx) + std::abs(g.vy);
   g.error = kFlightSlack<S> * (std::abs(flown_x) + std::abs(flown_y)) + kClock * speed;
   return g;
+}
+
+/// Are the centres closer than `reach`, or may rounding hide that they are?
+inline bool disks_are_within(const Glance& a, const Glance& b, double reach, double slack) {
+  const double px = (b.x - a.x) + (b.x_low - a.x_low);
+  const double py = (b.y - a.y) + (b.y_low - a.y_low);
+  const double off = a.error + b.error + slack * (std::abs(px) + std::abs(py) + reach);
+  return !(px * px + py * py > (reach + off) * (reach + off));
+}
+
+/// No body with this speed (m/s) and a pull of at most so much (m/s^2) along an axis goes `way`
+/// metres sooner; s.
+inline double shortest_crossing(double way, double speed, double pull) {
+  if (!(way > 0)) return 0;
+  return 2 * way / (speed + std::sqrt(speed * speed + 2 * pull * way));
 }
 
 /// False if disks with these motions certainly do not meet within `horizon` seconds from now.

@@ -47,4 +47,10 @@ inline bool order_matters(const Vector2& n1, const Vector2& n2, double w0, doubl
   return true;
 }
 
+/// Do two smooth contacts of a body commute although they lose energy? Only at a right angle.
+inline bool commute(const Vector2& n1, const Vector2& n2) {
+  constexpr double kRounding = 1e-14;
+  return std::abs(n1.dot(n2)) <= kRounding;
+}
+
 }  // namespace stoss::engine

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bytes.hpp"
+#include "contact_time/accelerated.hpp"
+#include "effects_bytes.hpp"
 #include "world_core.hpp"
 
 #include <stoss/engine/motion.hpp>
 #include <stoss/engine/world.hpp>
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace stoss::engine {
 
-World::World(const WorldOptions& options) : core_(make_core(options)) {}
+World::World(const WorldOptions& options) {
+  if (const auto reject = check_effects(options.effects)) {
+    throw std::invalid_argument(reject->field + " " + reject->reason);
+  }
+  core_ = make_core(options);
+}
 World::World(std::unique_ptr<WorldCore> core) : core_(std::move(core)) {}
 World::World(const World& other) : core_(other.core_->clone()) {}
 World& World::operator=(const World& other) {
@@ -24,6 +31,7 @@ World::~World() = default;
 Instant World::now() const { return core_->now(); }
 Arithmetic World::arithmetic() const { return core_->arithmetic(); }
 BroadPhaseKind World::broad_phase() const { return core_->broad_phase(); }
+Effects World::effects() const { return core_->effects(); }
 std::size_t World::disk_count() const { return core_->disk_count(); }
 std::size_t World::wall_count() const { return core_->wall_count(); }
 Counters World::counters() const { return core_->counters(); }
@@ -79,13 +87,16 @@ Outcome<World> World::deserialise(std::span<const std::byte> bytes, BroadPhaseKi
   ByteSource source(bytes);
   source.word();  // magic and format are checked by restore()
   source.word();
-  const std::uint64_t arithmetic = source.word();
-  const Reject unknown{.code = Code::InvalidArgument,
-                       .field = "bytes",
-                       .reason = "these are not a world's bytes, or of an arithmetic not built in"};
-  if (arithmetic > static_cast<std::uint64_t>(Arithmetic::LongDouble)) return unknown;
-  World world(WorldOptions{
-      .start = {}, .arithmetic = static_cast<Arithmetic>(arithmetic), .broad_phase = broad_phase});
+  const auto identity = read_identity(source);
+  if (!identity || identity->arithmetic > Arithmetic::LongDouble) {
+    return Reject{.code = Code::InvalidArgument,
+                  .field = "bytes",
+                  .reason = "these are not a world's bytes, or of an arithmetic not built in"};
+  }
+  World world(WorldOptions{.start = {},
+                           .arithmetic = identity->arithmetic,
+                           .broad_phase = broad_phase,
+                           .effects = identity->effects});
   if (const auto restored = world.core_->restore(bytes); !restored) return restored.reject();
   return world;
 }
@@ -133,9 +144,33 @@ double seconds_between(const Instant& earlier, const Instant& later) {
 namespace {
 
 template <class S>
-Vector2 evaluate_in(const MotionRecord& record, const Instant& instant) {
-  const DoubleWord2<S> p = position_at(from_record<S>(record), from_instant<Time<S>>(instant));
-  return {static_cast<double>(to_scalar(p.x)), static_cast<double>(to_scalar(p.y))};
+AcceleratedMotion<S> accelerated_motion(const MotionRecord& record) {
+  const Motion<S> motion = from_record<S>(record);
+  return {
+      motion.position, motion.velocity, {from_split<S>(record.ax), from_split<S>(record.ay)}, S(0)};
+}
+
+/// With the operations of a world, so that the bits are its own.
+template <class S>
+DoubleWord2<S> position_in(const MotionRecord& record, const Instant& instant) {
+  const AcceleratedMotion<S> motion = accelerated_motion<S>(record);
+  if (instant == record.since || detail::is_zero(motion.acceleration)) {
+    return position_at(from_record<S>(record), from_instant<Time<S>>(instant));
+  }
+  const DoubleWord<S> elapsed = difference<S>(instant, record.since);
+  return displacement_at(motion, Duration<S>{elapsed.hi, elapsed.lo});
+}
+
+template <class S>
+DoubleWord2<S> velocity_in(const MotionRecord& record, const Instant& instant) {
+  const AcceleratedMotion<S> motion = accelerated_motion<S>(record);
+  if (instant == record.since || detail::is_zero(motion.acceleration)) return motion.velocity;
+  return motion.velocity + motion.acceleration * difference<S>(instant, record.since);
+}
+
+template <class S>
+Vector2 rounded(const DoubleWord2<S>& v) {
+  return {static_cast<double>(to_scalar(v.x)), static_cast<double>(to_scalar(v.y))};
 }
 
 }  // namespace
@@ -143,8 +178,15 @@ Vector2 evaluate_in(const MotionRecord& record, const Instant& instant) {
 // A record holds double-words, so double's evaluation is the best of all wider worlds, too, and the
 // same on every machine.
 Vector2 evaluate(const MotionRecord& motion, Arithmetic arithmetic, const Instant& instant) {
-  return arithmetic == Arithmetic::Float ? evaluate_in<float>(motion, instant)
-                                         : evaluate_in<double>(motion, instant);
+  return arithmetic == Arithmetic::Float ? rounded(position_in<float>(motion, instant))
+                                         : rounded(position_in<double>(motion, instant));
+}
+
+Vector2 evaluate_velocity(const MotionRecord& motion,
+                          Arithmetic arithmetic,
+                          const Instant& instant) {
+  return arithmetic == Arithmetic::Float ? rounded(velocity_in<float>(motion, instant))
+                                         : rounded(velocity_in<double>(motion, instant));
 }
 
 double turned(double angle, double spin, const Instant& since, const Instant& instant) {

@@ -22,6 +22,7 @@ class WorldCore {
   virtual Instant now() const = 0;
   virtual Arithmetic arithmetic() const = 0;
   virtual BroadPhaseKind broad_phase() const = 0;
+  virtual Effects effects() const = 0;
   virtual std::size_t disk_count() const = 0;
   virtual std::size_t wall_count() const = 0;
   virtual Counters counters() const = 0;
@@ -57,6 +58,18 @@ class WorldCore {
   virtual Outcome<Done> restore(std::span<const std::byte> bytes) = 0;
   virtual std::uint64_t state_hash() const = 0;
 };
+
+/// The core of one arithmetic: a plain one, or one for the effects asked for. Each is a translation
+/// unit of its own (world_<arithmetic>.cpp and world_<arithmetic>_effects.cpp).
+template <class S>
+std::unique_ptr<WorldCore> make_plain_core(const WorldOptions& options);
+template <class S>
+std::unique_ptr<WorldCore> make_effects_core(const WorldOptions& options);
+
+template <class S>
+std::unique_ptr<WorldCore> make_core_in(const WorldOptions& options) {
+  return options.effects == Effects{} ? make_plain_core<S>(options) : make_effects_core<S>(options);
+}
 
 /// A core for Float, Double or LongDouble; null for an arithmetic that this library has not.
 std::unique_ptr<WorldCore> make_core(const WorldOptions& options);

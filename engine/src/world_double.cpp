@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basic_world.hpp"
+#include "core_of.hpp"
 
-namespace stoss::engine {
-
-template class BasicWorld<double>;
-
-std::unique_ptr<WorldCore> make_double_core(const WorldOptions& options);
-std::unique_ptr<WorldCore> make_double_core(const WorldOptions& options) {
-  return std::make_unique<BasicWorld<double>>(options);
-}
-
-}  // namespace stoss::engine
+template std::unique_ptr<stoss::engine::WorldCore> stoss::engine::make_plain_core<double>(
+    const WorldOptions& options);

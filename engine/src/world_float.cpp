@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basic_world.hpp"
+#include "core_of.hpp"
 
-namespace stoss::engine {
-
-template class BasicWorld<float>;
-
-std::unique_ptr<WorldCore> make_float_core(const WorldOptions& options);
-std::unique_ptr<WorldCore> make_float_core(const WorldOptions& options) {
-  return std::make_unique<BasicWorld<float>>(options);
-}
-
-}  // namespace stoss::engine
+template std::unique_ptr<stoss::engine::WorldCore> stoss::engine::make_plain_core<float>(
+    const WorldOptions& options);

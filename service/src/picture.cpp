@@ -9,11 +9,6 @@
 namespace stoss::service {
 namespace {
 
-// Velocities are constant between events; their high words are what the engine itself reports.
-engine::Vector2 velocity_of(const engine::MotionRecord& motion) {
-  return {motion.vx.high, motion.vy.high};
-}
-
 // The engine's own order: the start is evaluated, then the edge is added, then it is rounded once.
 template <class S>
 engine::Vector2 end_at(const Picture::Body& body, const engine::Instant& instant) {
@@ -112,7 +107,7 @@ engine::BodyState Picture::state_of(const Body& body) const {
           .kind = body.record.kind,
           .instant = moment_.at,
           .position = engine::evaluate(motion, arithmetic_, moment_.at),
-          .velocity = velocity_of(motion),
+          .velocity = engine::evaluate_velocity(motion, arithmetic_, moment_.at),
           .angle = engine::turned(motion.angle, motion.spin, motion.since, moment_.at),
           .spin = motion.spin,
           .radius = body.record.radius};
@@ -124,7 +119,7 @@ engine::WallState Picture::wall_of(const Body& body) const {
           .instant = moment_.at,
           .start = engine::evaluate(motion, arithmetic_, moment_.at),
           .end = end_at(body, arithmetic_, moment_.at),
-          .velocity = velocity_of(motion)};
+          .velocity = engine::evaluate_velocity(motion, arithmetic_, moment_.at)};
 }
 
 }  // namespace stoss::service

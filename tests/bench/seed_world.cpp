@@ -11,10 +11,8 @@
 
 namespace stoss::engine {
 
-template class BasicWorld<double>;
-
 std::unique_ptr<WorldCore> make_core(const WorldOptions& options) {
-  return std::make_unique<BasicWorld<double>>(options);
+  return std::make_unique<BasicWorld<double, PlainLaws>>(options);
 }
 
 bench::Advance make_gas_run(int columns, double area_fraction) {

@@ -237,11 +237,34 @@ TEST(Simulate, AScenesFaultIsNamed) {
   const Finished overlap = stoss({"simulate", path, "--until", "1"});
   EXPECT_EQ(overlap.status, 1);
   EXPECT_EQ(overlap.error.rfind("OVERLAP: ", 0), 0U) << overlap.error;
-  std::ofstream(path) << R"({"effects":{"gravity":{"acceleration":{"y":-9.81}}}})";
-  const Finished gravity = stoss({"simulate", path, "--until", "1"});
-  EXPECT_EQ(gravity.status, 1);
-  EXPECT_EQ(gravity.error.rfind("UNIMPLEMENTED: ", 0), 0U) << gravity.error;
+  std::ofstream(path) << R"({"effects":{"drag":{"rate":1}}})";
+  const Finished drag = stoss({"simulate", path, "--until", "1"});
+  EXPECT_EQ(drag.status, 1);
+  EXPECT_EQ(drag.error.rfind("UNIMPLEMENTED: ", 0), 0U) << drag.error;
   EXPECT_EQ(stoss({"simulate", path + ".json", "--until", "1"}).status, 1);
+}
+
+TEST(Simulate, EffectsActAndThoseThatCannotGoTogetherAreNamed) {
+  const std::string path = testing::TempDir() + "effects_scene.json";
+  std::ofstream(path) << R"({"disks":[{"id":1,"position":{"y":5.5},"velocity":{"x":0.25},)"
+                         R"("radius":0.5}],"walls":[{"id":2,"start":{"x":-10},"end":{"x":10}}],)"
+                         R"("effects":{"gravity":{"acceleration":{"y":-9.81}},)"
+                         R"("restitution":{"coefficient":0.5}}})";
+  const Finished falls = stoss({"simulate", path, "--until", "1.5", "--collisions", "-"});
+  EXPECT_EQ(falls.status, 0) << falls.error;
+  const std::vector<std::string> lines = lines_of(falls.out);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("4.95227220576575"), std::string::npos) << lines[0];
+  const Finished stepped =
+      stoss({"simulate", path, "--until", "1", "--method", "fixed-step", "--step", "0.01"});
+  EXPECT_EQ(stepped.status, 1);
+  EXPECT_NE(stepped.error.find("UNIMPLEMENTED"), std::string::npos) << stepped.error;
+  std::ofstream(path) << R"({"effects":{"gravity":{"acceleration":{"y":-9.81}},)"
+                         R"("floor_friction":{"deceleration":1}}})";
+  const Finished refused = stoss({"simulate", path, "--until", "1"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.error.rfind("UNIMPLEMENTED: ", 0), 0U) << refused.error;
+  EXPECT_NE(refused.error.find("effects.floor_friction"), std::string::npos) << refused.error;
 }
 
 TEST(Simulate, BadUsageIsToldAsSuch) {

@@ -11,20 +11,31 @@
 #include <string>
 
 #ifdef STOSS_WHOLE_ENGINE
+#include "world_core.hpp"
+
+// Left out: a long double is not the same number format everywhere.
+namespace stoss::engine {
+template <>
+std::unique_ptr<WorldCore> make_plain_core<long double>(const WorldOptions&) {
+  return nullptr;
+}
+template <>
+std::unique_ptr<WorldCore> make_effects_core<long double>(const WorldOptions&) {
+  return nullptr;
+}
+}  // namespace stoss::engine
+
 // NOLINTBEGIN(bugprone-suspicious-include)
 #include "broad_phase/aabb_tree.cpp"
 #include "broad_phase/neighbours.cpp"
+#include "effects.cpp"
 #include "make_core.cpp"
 #include "world.cpp"
 #include "world_double.cpp"
+#include "world_double_effects.cpp"
 #include "world_float.cpp"
+#include "world_float_effects.cpp"
 // NOLINTEND(bugprone-suspicious-include)
-
-// Left out: a long double is not the same number format everywhere.
-std::unique_ptr<stoss::engine::WorldCore> stoss::engine::make_long_double_core(
-    const WorldOptions&) {
-  return nullptr;
-}
 #endif
 
 int main(int argc, char** argv) {

@@ -108,9 +108,13 @@ inline void expect_vector(const Case& c, const Real2& value, const Real2& truth,
       << value.x << ' ' << value.y << " should be " << truth.x << ' ' << truth.y;
 }
 
-/// Why effects are missing, for what has a coefficient of restitution below 1.
-inline std::string without_restitution(const Case& c) {
-  return c.has("e") && c.number("e") != 1 ? "the velocities after need restitution" : "";
+/// A world with the case's coefficient of restitution, if it has one.
+inline engine::World world_of(const Case& c, const engine::Instant& start = {}) {
+  engine::Effects effects;
+  if (c.has("e") && c.number("e") != 1) {
+    effects.restitution = engine::Restitution{c.number("e"), c.number("e"), 0, 0};
+  }
+  return engine::World(engine::WorldOptions{.start = start, .effects = effects});
 }
 
 }  // namespace stoss::hard_cases

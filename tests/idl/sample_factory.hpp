@@ -75,7 +75,11 @@ class SampleFactory {
              b.seconds,
              b.fraction,
              b.angle,
-             b.spin);
+             b.spin,
+             b.ax,
+             b.ay,
+             b.ax_low,
+             b.ay_low);
   }
   void statics(idl::wire::StaticBlock& b, std::size_t n = stoss_v1_MAX_STATICS) {
     fill_all(n, b.id, b.kind, b.radius, b.mass, b.edge_x, b.edge_y, b.edge_x_low, b.edge_y_low);

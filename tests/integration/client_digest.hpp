@@ -43,6 +43,8 @@ class BitDigest {
     add(m.y);
     add(m.vx);
     add(m.vy);
+    add(m.ax);
+    add(m.ay);
     add(m.since);
   }
   void add(const engine::BodyRecord& b) {

@@ -30,8 +30,15 @@ constexpr Milliseconds kPatience{30'000};
 
 /// Disks on a lattice with random velocities, slow enough for a machine that has other things to
 /// do.
-std::string write_gas(int side) {
+std::string write_gas(int side, bool falls = false) {
   Scene gas;
+  if (falls) {
+    gas.mutable_effects()->mutable_gravity()->mutable_acceleration()->set_y(-2);
+    auto& restitution = *gas.mutable_effects()->mutable_restitution();
+    restitution.set_coefficient(0.9);
+    restitution.set_contact_duration(1e-3);
+    restitution.set_rest_speed(0.01);
+  }
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> speed(-0.2, 0.2);
   for (int i = 0; i < side * side; ++i) {
@@ -120,6 +127,8 @@ TEST(LateJoiner, HoldsAHundredThousandBodiesExactly) {
   constexpr int kSide = 316;
   join_late(write_gas(kSide), kSide * kSide);
 }
+
+TEST(LateJoiner, HoldsAWorldWithGravityExactly) { join_late(write_gas(20, true), 400); }
 
 TEST(LateJoiner, AReplicaFindsItsWayThroughAReset) {
   Process daemon(stossd(kDomain, {"--scene", scene("pool-break"), "--world", "late"}));

@@ -68,6 +68,7 @@ accuracy::Options options_of(const AccuracyTexts& texts) {
 /// The scene's bodies as the exact engine takes them, with the ids that it gives.
 translate::SceneBodies checked_bodies(const std::string& path) {
   translate::SceneBodies bodies = scene_bodies(path);
+  refuse_effects(bodies, "this study");
   const std::vector<engine::Id> ids = value_or_refuse(translate::make_world(bodies, {})).ids;
   for (std::size_t i = 0; i < bodies.disks.size(); ++i) bodies.disks[i].id = ids[i];
   for (std::size_t i = 0; i < bodies.walls.size(); ++i) {

@@ -21,4 +21,11 @@ translate::SceneBodies scene_bodies(const std::string& path) {
   return value_or_refuse(translate::bodies_of(std::get<Scene>(loaded)));
 }
 
+void refuse_effects(const translate::SceneBodies& bodies, const std::string& who) {
+  if (bodies.effects == engine::Effects{}) return;
+  throw RefusedError({.code = engine::Code::Unimplemented,
+                      .field = "effects",
+                      .reason = who + " knows uniform motion and elastic contacts only"});
+}
+
 }  // namespace stoss::client::cli

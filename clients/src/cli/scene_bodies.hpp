@@ -10,4 +10,7 @@ namespace stoss::client::cli {
 /// Reads a scene file. Throws RefusedError, which names the file, the field and the body.
 [[nodiscard]] translate::SceneBodies scene_bodies(const std::string& path);
 
+/// Throws RefusedError (UNIMPLEMENTED) for a scene with effects; `who`: what does not know them.
+void refuse_effects(const translate::SceneBodies& bodies, const std::string& who);
+
 }  // namespace stoss::client::cli

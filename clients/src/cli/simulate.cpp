@@ -145,6 +145,7 @@ void simulate_in_steps(const SimulateOptions& options,
     bodies.walls[i].id = ids[bodies.disks.size() + i];
   }
   if (!options.until) throw UsageError("--method fixed-step needs --until");
+  refuse_effects(bodies, "the stepped method");
   baseline::FixedStep world(bodies.disks, bodies.walls, bodies.start, *options.step);
   SimulateReport report{.at_start = world.conserved()};
   const Stopwatch stopwatch;

@@ -34,15 +34,58 @@ struct PairImpulse {
 
 namespace detail {
 
-/// (1) for the body of mass `self`; `closing2` = 2 u . p, `length2` = p . p.
+/// (1) for the body of mass `self`; `change` stands for 2 u . p, `length2` = p . p.
 template <class S>
-[[nodiscard]] inline DoubleWord<S> share_of_impulse(const DoubleWord<S>& closing2,
+[[nodiscard]] inline DoubleWord<S> share_of_impulse(const DoubleWord<S>& change,
                                                     const DoubleWord<S>& length2,
                                                     const S& self,
                                                     const S& other) noexcept {
   const int by_mass = steps_into_range(larger(self, other));
   const S m = shifted(self, by_mass), n = shifted(other, by_mass);
-  return (closing2 * n) / (length2 * two_sum(m, n));
+  return (change * n) / (length2 * two_sum(m, n));
+}
+
+/// The impulse along the normal that takes `gain(closing, p . p, by_speed)` from u . p, where
+/// closing = u . p < 0 before, and speeds are 1 / shifted(1, by_speed) m/s; see elastic_impulse for
+/// the rest. `Always`: also where the bodies do not approach.
+template <class S, bool Always = false, class Gain>
+[[nodiscard]] inline PairImpulse<S> normal_impulse(const DoubleWord2<S>& contact_vector,
+                                                   const DoubleWord2<S>& relative_velocity,
+                                                   S mass_a,
+                                                   bool fixed_a,
+                                                   S mass_b,
+                                                   bool fixed_b,
+                                                   const Gain& gain) noexcept {
+  using std::sqrt;
+  // p cancels and u is linear in (1): both may be shifted into the range where squares are safe.
+  const int by_length = steps_into_range(size_of(contact_vector));
+  const int by_speed = steps_into_range(size_of(relative_velocity));
+  const DoubleWord2<S> p = shifted(contact_vector, by_length);
+  const DoubleWord2<S> u = shifted(relative_velocity, by_speed);
+
+  PairImpulse<S> result;
+  const DoubleWord<S> length2 = square_norm(p);
+  const S length = sqrt(to_scalar(length2));
+  result.normal_x = p.x.hi / length;
+  result.normal_y = p.y.hi / length;
+  const DoubleWord<S> closing = dot(u, p);
+  if (!Always && sign(closing) >= 0) return result;
+  result.approach_speed = shifted(S(-to_scalar(closing) / length), -by_speed);
+  if (fixed_a && fixed_b) return result;
+
+  const DoubleWord<S> change = gain(closing, length2, by_speed);
+  const DoubleWord<S> none{S(0), S(0)};
+  const bool free = !fixed_a && !fixed_b;
+  const DoubleWord<S> whole = free ? none : change / length2;
+  const DoubleWord<S> k_a =
+      fixed_a ? none : (free ? share_of_impulse(change, length2, mass_a, mass_b) : whole);
+  const DoubleWord<S> k_b =
+      fixed_b ? none : (free ? share_of_impulse(change, length2, mass_b, mass_a) : whole);
+  result.delta_a = shifted(p * k_a, -by_speed);
+  result.delta_b = shifted(-(p * k_b), -by_speed);
+  const S momentum = fixed_a ? S(mass_b * k_b.hi) : S(mass_a * k_a.hi);
+  result.impulse = shifted(S(-momentum * length), -by_speed);
+  return result;
 }
 
 }  // namespace detail
@@ -57,36 +100,11 @@ template <class S>
                                                     bool fixed_a,
                                                     S mass_b,
                                                     bool fixed_b) noexcept {
-  using std::sqrt;
-  // p cancels and u is linear in (1): both may be shifted into the range where squares are safe.
-  const int by_length = detail::steps_into_range(detail::size_of(contact_vector));
-  const int by_speed = detail::steps_into_range(detail::size_of(relative_velocity));
-  const DoubleWord2<S> p = detail::shifted(contact_vector, by_length);
-  const DoubleWord2<S> u = detail::shifted(relative_velocity, by_speed);
-
-  PairImpulse<S> result;
-  const DoubleWord<S> length2 = square_norm(p);
-  const S length = sqrt(to_scalar(length2));
-  result.normal_x = p.x.hi / length;
-  result.normal_y = p.y.hi / length;
-  const DoubleWord<S> closing = dot(u, p);
-  if (sign(closing) >= 0) return result;
-  result.approach_speed = detail::shifted(S(-to_scalar(closing) / length), -by_speed);
-  if (fixed_a && fixed_b) return result;
-
-  const DoubleWord<S> closing2 = closing + closing;
-  const DoubleWord<S> none{S(0), S(0)};
-  const bool free = !fixed_a && !fixed_b;
-  const DoubleWord<S> whole = free ? none : closing2 / length2;
-  const DoubleWord<S> k_a =
-      fixed_a ? none : (free ? detail::share_of_impulse(closing2, length2, mass_a, mass_b) : whole);
-  const DoubleWord<S> k_b =
-      fixed_b ? none : (free ? detail::share_of_impulse(closing2, length2, mass_b, mass_a) : whole);
-  result.delta_a = detail::shifted(p * k_a, -by_speed);
-  result.delta_b = detail::shifted(-(p * k_b), -by_speed);
-  const S momentum = fixed_a ? S(mass_b * k_b.hi) : S(mass_a * k_a.hi);
-  result.impulse = detail::shifted(S(-momentum * length), -by_speed);
-  return result;
+  const auto reverse = [](const DoubleWord<S>& closing, const DoubleWord<S>&, int) {
+    return closing + closing;
+  };
+  return detail::normal_impulse(
+      contact_vector, relative_velocity, mass_a, fixed_a, mass_b, fixed_b, reverse);
 }
 
 }  // namespace stoss::engine

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bytes.hpp"
-#include "cores.hpp"
+#include "double_double.hpp"
+#include "effects_bytes.hpp"
+#include "world_core.hpp"
+#ifdef STOSS_HAVE_QUADMATH
+#include "float128.hpp"
+#endif
 
 #include <stoss/wide/world.hpp>
 
@@ -19,10 +23,10 @@ bool is_available(Arithmetic arithmetic) {
 engine::World make_world(const engine::WorldOptions& options) {
   switch (options.arithmetic) {
     case Arithmetic::DoubleDouble:
-      return engine::World(make_double_double_core(options));
+      return engine::World(engine::make_core_in<DoubleDouble>(options));
     case Arithmetic::Float128:
 #ifdef STOSS_HAVE_QUADMATH
-      return engine::World(make_float128_core(options));
+      return engine::World(engine::make_core_in<Float128>(options));
 #else
       break;
 #endif
@@ -39,18 +43,19 @@ engine::Outcome<engine::World> deserialise(std::span<const std::byte> bytes,
   engine::ByteSource source(bytes);
   source.word();  // magic and format are checked by restore()
   source.word();
-  const std::uint64_t arithmetic = source.word();
-  if (arithmetic <= static_cast<std::uint64_t>(Arithmetic::LongDouble) ||
-      arithmetic > static_cast<std::uint64_t>(Arithmetic::Float128)) {
+  const auto identity = engine::read_identity(source);
+  if (!identity || identity->arithmetic <= Arithmetic::LongDouble) {
     return engine::World::deserialise(bytes, broad_phase);
   }
-  if (!is_available(static_cast<Arithmetic>(arithmetic))) {
+  if (!is_available(identity->arithmetic)) {
     return engine::Reject{.code = engine::Code::Unimplemented,
                           .field = "bytes",
                           .reason = "this build has no such arithmetic"};
   }
-  engine::World world = make_world(
-      {.start = {}, .arithmetic = static_cast<Arithmetic>(arithmetic), .broad_phase = broad_phase});
+  engine::World world = make_world({.start = {},
+                                    .arithmetic = identity->arithmetic,
+                                    .broad_phase = broad_phase,
+                                    .effects = identity->effects});
   if (const auto restored = world.core().restore(bytes); !restored) return restored.reject();
   return world;
 }

@@ -108,9 +108,14 @@ void WallColumns::lend(wire::WallBlock& block, std::size_t first, std::size_t co
 void MotionColumns::append(engine::ChangeKind change, const engine::MotionRecord& motion) {
   angle_.append(size(), motion.angle);
   spin_.append(size(), motion.spin);
+  ax_.append(size(), motion.ax.high);
+  ay_.append(size(), motion.ay.high);
+  ax_low_.append(size(), motion.ax.low);
+  ay_low_.append(size(), motion.ay.low);
   id_.push_back(motion.id);
   change_.push_back(idl::wire_value(to_wire(change)));
-  law_.push_back(idl::wire_value(idl::Law::kUniform));
+  const bool is_uniform = motion.ax.high == 0 && motion.ay.high == 0;
+  law_.push_back(idl::wire_value(is_uniform ? idl::Law::kUniform : idl::Law::kAccelerated));
   x_.push_back(motion.x.high);
   y_.push_back(motion.y.high);
   x_low_.push_back(motion.x.low);
@@ -130,8 +135,7 @@ void MotionColumns::clear() {
     column->clear();
   }
   seconds_.clear();
-  angle_.clear();
-  spin_.clear();
+  for (auto* column : {&angle_, &spin_, &ax_, &ay_, &ax_low_, &ay_low_}) column->clear();
 }
 
 void MotionColumns::reserve(std::size_t count) {
@@ -159,6 +163,10 @@ void MotionColumns::lend(wire::MotionBlock& block, std::size_t first, std::size_
   idl::lend(block.fraction, rows(fraction_, first, count));
   idl::lend(block.angle, rows(angle_.padded(size()), first, count));
   idl::lend(block.spin, rows(spin_.padded(size()), first, count));
+  idl::lend(block.ax, rows(ax_.padded(size()), first, count));
+  idl::lend(block.ay, rows(ay_.padded(size()), first, count));
+  idl::lend(block.ax_low, rows(ax_low_.padded(size()), first, count));
+  idl::lend(block.ay_low, rows(ay_low_.padded(size()), first, count));
 }
 
 void StaticColumns::append(const engine::BodyRecord& body) {

@@ -62,11 +62,17 @@ bool consistent(const wire::MotionBlock& block) {
                   block.vy_low._length,
                   block.seconds._length,
                   block.fraction._length}) &&
-         all_are_or_empty(rows, {block.angle._length, block.spin._length}) &&
+         all_are_or_empty(rows,
+                          {block.angle._length,
+                           block.spin._length,
+                           block.ax._length,
+                           block.ay._length,
+                           block.ax_low._length,
+                           block.ay_low._length}) &&
          std::ranges::all_of(idl::view(block.change),
                              [](std::uint8_t value) { return change_of(value).has_value(); }) &&
          std::ranges::all_of(idl::view(block.law),
-                             [](std::uint8_t value) { return value == stoss_v1_LAW_UNIFORM; });
+                             [](std::uint8_t value) { return value <= stoss_v1_LAW_ACCELERATED; });
 }
 
 bool consistent(const wire::StaticBlock& block) {
@@ -122,7 +128,9 @@ engine::MotionRecord motion_at(const wire::MotionBlock& block, std::size_t i) {
           .vy = {block.vy._buffer[i], block.vy_low._buffer[i]},
           .since = {block.seconds._buffer[i], block.fraction._buffer[i]},
           .angle = at_or(block.angle, i, 0),
-          .spin = at_or(block.spin, i, 0)};
+          .spin = at_or(block.spin, i, 0),
+          .ax = {at_or(block.ax, i, 0), at_or(block.ax_low, i, 0)},
+          .ay = {at_or(block.ay, i, 0), at_or(block.ay_low, i, 0)}};
 }
 
 engine::Change change_at(const wire::MotionBlock& block, std::size_t i) {

@@ -5,6 +5,7 @@
 #include <stoss/wide/world.hpp>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace stoss::translate {
@@ -52,11 +53,37 @@ engine::WallSpec spec_of(const Wall& wall) {
           .velocity = vector_of(wall.velocity())};
 }
 
+engine::Effects effects_of(const Effects& asked) {
+  engine::Effects effects;
+  if (asked.has_gravity()) {
+    effects.gravity = engine::Gravity{vector_of(asked.gravity().acceleration())};
+  }
+  if (asked.has_floor_friction()) {
+    effects.floor_friction = engine::FloorFriction{asked.floor_friction().deceleration()};
+  }
+  if (asked.has_restitution()) {
+    const Restitution& restitution = asked.restitution();
+    effects.restitution = engine::Restitution{
+        .coefficient = restitution.coefficient(),
+        .wall_coefficient = restitution.has_wall_coefficient() ? restitution.wall_coefficient()
+                                                               : restitution.coefficient(),
+        .contact_duration = restitution.contact_duration(),
+        .rest_speed = restitution.rest_speed()};
+  }
+  if (asked.has_rough()) {
+    effects.rough = engine::Rough{.tangential_restitution = asked.rough().tangential_restitution(),
+                                  .friction = asked.rough().friction()};
+  }
+  return effects;
+}
+
 }  // namespace
 
 std::span<const std::string_view> engine_effects() {
   // Every effect of the scene format that has an exact treatment; each is one file of the engine.
-  return {};
+  static constexpr std::array<std::string_view, 4> kNames = {
+      "gravity", "floor_friction", "restitution", "rough"};
+  return kNames;
 }
 
 std::optional<Reject> unsupported(const Scene& scene) {
@@ -76,6 +103,11 @@ engine::Outcome<SceneBodies> bodies_of(const Scene& scene) {
   if (auto reject = unsupported(scene)) return *std::move(reject);
   SceneBodies bodies;
   bodies.start = {scene.start().seconds(), scene.start().fraction()};
+  bodies.effects = effects_of(scene.effects());
+  if (auto reject = engine::check_effects(bodies.effects)) {
+    reject->field = "effects." + reject->field;
+    return *std::move(reject);
+  }
   bodies.disks.reserve(static_cast<std::size_t>(scene.disks_size()));
   bodies.disk_names.reserve(bodies.disks.capacity());
   for (const Disk& disk : scene.disks()) {
@@ -118,8 +150,10 @@ engine::Outcome<SceneWorld> make_world(const SceneBodies& bodies, const WorldCho
     return unimplemented("arithmetic",
                          std::string(name_of(choice.arithmetic)) + " is not in this build");
   }
-  engine::World world = wide::make_world(
-      {.start = bodies.start, .arithmetic = choice.arithmetic, .broad_phase = choice.broad_phase});
+  engine::World world = wide::make_world({.start = bodies.start,
+                                          .arithmetic = choice.arithmetic,
+                                          .broad_phase = choice.broad_phase,
+                                          .effects = bodies.effects});
   auto made = world.spawn({bodies.disks, bodies.walls});
   if (!made) return made.reject();
   return SceneWorld{std::move(world), std::move(made).value()};

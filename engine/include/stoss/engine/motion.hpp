@@ -74,13 +74,20 @@ MotionRecord to_record(Id id, const Motion<S>& motion) {
           to_split(motion.velocity.y),
           to_instant(motion.since),
           0,
-          0};
+          0,
+          {},
+          {}};
 }
 
 /// Evaluates a recorded motion as a world in `arithmetic` does. Exact to the bit for Float and
 /// Double; a LongDouble world's times are finer than an Instant, and wider arithmetics do not fit a
 /// record, so for those the result is that of the nearest record.
 Vector2 evaluate(const MotionRecord& motion, Arithmetic arithmetic, const Instant& instant);
+
+/// The velocity of a recorded motion, m/s, in the same sense.
+Vector2 evaluate_velocity(const MotionRecord& motion,
+                          Arithmetic arithmetic,
+                          const Instant& instant);
 
 /// angle + spin (instant - since), each step rounded once to double; rad.
 double turned(double angle, double spin, const Instant& since, const Instant& instant);

@@ -112,14 +112,15 @@ struct SplitNumber {
 };
 
 /// A stored motion in a form that every arithmetic up to double-double maps onto exactly: where the
-/// body (a disk's centre, a wall's start) was at `since`, and its velocity from then on.
+/// body (a disk's centre, a wall's start) was at `since`, its velocity then, and its acceleration.
 struct MotionRecord {
   Id id = kNoId;
   SplitNumber x, y;    ///< m
   SplitNumber vx, vy;  ///< m/s
   Instant since;
-  double angle = 0;  ///< rad, at `since`
-  double spin = 0;   ///< rad/s
+  double angle = 0;        ///< rad, at `since`
+  double spin = 0;         ///< rad/s
+  SplitNumber ax{}, ay{};  ///< m/s^2; zero in uniform motion
 };
 
 /// What of a body changes rarely: everything but its motion.

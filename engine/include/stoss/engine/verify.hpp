@@ -14,6 +14,9 @@
 // for a dynamic disk that meets an immovable body of velocity V (m/s), J: impulse (kg m/s), n: unit
 // normal out of the disk. (1) is exact for elastic contacts: (v + v') . n = 2 V . n.
 //
+// In a world with effects contacts lose energy and gravity gives momentum: there the books stay
+// shut, and overlaps and missed contacts alone are checked.
+//
 // Accuracy: the books are kept in double-words, but impulses reach them rounded to the world's
 // arithmetic (at most to double). So a healthy drift is a random walk of that rounding per contact
 // with an immovable body, and nothing but the world's own rounding where there is none.
@@ -91,6 +94,7 @@ class Verifier {
   Sums booked_;
   std::unordered_set<Id> immovable_;  // disks that are not dynamic
   double energy_max_ = 0;             // of this world so far, J
+  bool keeps_books_ = true;
   Verification found_;
 };
 

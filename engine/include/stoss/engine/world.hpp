@@ -13,6 +13,7 @@
 //  3. Events are processed by (instant, kind, lower id, higher id).
 //  4. A refused command leaves every byte as it was.
 
+#include <stoss/engine/effects.hpp>
 #include <stoss/engine/outcome.hpp>
 #include <stoss/engine/types.hpp>
 
@@ -31,6 +32,7 @@ struct WorldOptions {
   Instant start;
   Arithmetic arithmetic = Arithmetic::Double;
   BroadPhaseKind broad_phase = BroadPhaseKind::Neighbours;  ///< never changes a byte of output
+  Effects effects{};                                        ///< that check_effects() accepts
 };
 
 /// Why an advance stopped short of the instant asked for.
@@ -63,7 +65,8 @@ inline constexpr double kOverlapTolerance = 1e-9;
 class World {
  public:
   /// A world without bodies. REQUIRES: options.arithmetic is Float, Double or LongDouble; wider
-  /// ones come from stoss::wide.
+  /// ones come from stoss::wide. Throws std::invalid_argument for effects that check_effects()
+  /// refuses.
   explicit World(const WorldOptions& options = {});
   explicit World(std::unique_ptr<WorldCore> core);
   World(const World& other);
@@ -75,6 +78,7 @@ class World {
   Instant now() const;
   Arithmetic arithmetic() const;
   BroadPhaseKind broad_phase() const;
+  Effects effects() const;
   std::size_t disk_count() const;
   std::size_t wall_count() const;
   Counters counters() const;

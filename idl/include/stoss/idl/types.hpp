@@ -108,7 +108,10 @@ enum class Change : std::uint8_t {
   kRemoved = stoss_v1_CHANGE_REMOVED,
 };
 
-enum class Law : std::uint8_t { kUniform = stoss_v1_LAW_UNIFORM };
+enum class Law : std::uint8_t {
+  kUniform = stoss_v1_LAW_UNIFORM,
+  kAccelerated = stoss_v1_LAW_ACCELERATED,
+};
 
 enum class CollisionKind : std::uint8_t {
   kDiskDisk = stoss_v1_COLLISION_DISK_DISK,

@@ -21,9 +21,10 @@ namespace stoss::translate {
 /// The names of the effects that the engine has, as a scene spells them.
 [[nodiscard]] std::span<const std::string_view> engine_effects();
 
-/// A scene's bodies in the engine's words; names run beside them and may be empty.
+/// A scene's bodies and effects in the engine's words; names run beside them and may be empty.
 struct SceneBodies {
   engine::Instant start;
+  engine::Effects effects;
   std::vector<engine::DiskSpec> disks;
   std::vector<std::string> disk_names;
   std::vector<engine::WallSpec> walls;
@@ -35,7 +36,7 @@ struct SceneBodies {
 [[nodiscard]] std::optional<engine::Reject> unsupported(const Scene& scene);
 
 /// The bodies of a scene that has passed idl::check_scene. Errors: those of unsupported();
-/// InvalidArgument for a kind that is unknown.
+/// InvalidArgument for a kind that is unknown, and those of engine::check_effects().
 [[nodiscard]] engine::Outcome<SceneBodies> bodies_of(const Scene& scene);
 
 /// How a scene's world computes; neither changes with the scene.

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What a world may have besides uniform motion and elastic contacts. An effect that is absent is
+// simulated nowhere: the world is then an instance of the engine that does not know it.
+
+#include <stoss/engine/outcome.hpp>
+#include <stoss/engine/types.hpp>
+
+#include <optional>
+
+namespace stoss::engine {
+
+/// Uniform gravity on dynamic disks.
+struct Gravity {
+  Vector2 acceleration = Vector2::Zero();  ///< m/s^2
+
+  friend bool operator==(const Gravity&, const Gravity&) = default;
+};
+
+/// Friction with the floor on dynamic disks: a constant deceleration to a stop.
+struct FloorFriction {
+  double deceleration = 0;  ///< m/s^2, >= 0
+
+  friend bool operator==(const FloorFriction&, const FloorFriction&) = default;
+};
+
+/// Contacts that lose energy: the normal relative speed after one is `coefficient` times that
+/// before. NUMERICS B1; the guard: Luding and McNamara, Granular Matter 1 (1998) 113.
+struct Restitution {
+  double coefficient = 1;       ///< of disks among themselves, in [0, 1]
+  double wall_coefficient = 1;  ///< of disks with walls, in [0, 1]
+  /// s; a contact less than this after an earlier one of either disk is elastic, and marked as
+  /// regularised. 0: never, and then an inelastic collapse stops the world.
+  double contact_duration = 0;
+  /// m/s; under gravity a disk whose bounce would be slower than this stays on what it has met.
+  /// 0: 1e-9.
+  double rest_speed = 0;
+
+  friend bool operator==(const Restitution&, const Restitution&) = default;
+};
+
+/// Rough contacts, which turn disks: uniform disks with a moment of inertia of m r^2 / 2. Walton
+/// and Braun, J. Rheol. 30 (1986) 949.
+struct Rough {
+  /// The tangential relative velocity of the surfaces after a contact that sticks is minus this
+  /// times that before; in [-1, 1]. -1: smooth.
+  double tangential_restitution = -1;
+  double friction = 0;  ///< Coulomb's limit: tangential over normal impulse, >= 0
+
+  friend bool operator==(const Rough&, const Rough&) = default;
+};
+
+/// Present = on.
+struct Effects {
+  std::optional<Gravity> gravity;
+  std::optional<FloorFriction> floor_friction;
+  std::optional<Restitution> restitution;
+  std::optional<Rough> rough;
+
+  friend bool operator==(const Effects&, const Effects&) = default;
+};
+
+/// Nothing if a world can have these effects together. Errors: InvalidArgument for a number out of
+/// its range, with the field as in "restitution.coefficient"; Unimplemented for a combination that
+/// has no exact treatment.
+[[nodiscard]] std::optional<Reject> check_effects(const Effects& effects);
+
+}  // namespace stoss::engine

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Where the event loop meets the laws that a world was compiled for (laws.hpp). Of every pair of
+// branches here, an instance holds one.
+
+#include "basic_world.hpp"
+#include "contact_law/restitution.hpp"
+#include "contact_law/rough.hpp"
+#include "motion_law/floor_friction.hpp"
+#include "simultaneous.hpp"
+
+namespace stoss::engine {
+
+template <class S, class Laws>
+DoubleWord2<S> BasicWorld<S, Laws>::position_of(Slot slot, const Time<S>& instant) const {
+  const Motion<S>& motion = at(slot).motion;
+  if constexpr (Laws::kCurved) {
+    if (detail::is_zero(at(slot).acceleration)) return position_at(motion, instant);
+    if (instant == motion.since) return motion.position;
+    const DoubleWord<S> elapsed = difference<S>(instant, motion.since);
+    const AcceleratedMotion<S> own{motion.position, motion.velocity, at(slot).acceleration, S(0)};
+    return displacement_at(own, Duration<S>{elapsed.hi, elapsed.lo});
+  } else {
+    return position_at(motion, instant);
+  }
+}
+
+template <class S, class Laws>
+DoubleWord2<S> BasicWorld<S, Laws>::velocity_of(Slot slot,
+                                                [[maybe_unused]] const Time<S>& instant) const {
+  const Motion<S>& motion = at(slot).motion;
+  if constexpr (Laws::kCurved) {
+    if (instant != motion.since && !detail::is_zero(at(slot).acceleration)) {
+      return motion.velocity + at(slot).acceleration * difference<S>(instant, motion.since);
+    }
+  }
+  return motion.velocity;
+}
+
+template <class S, class Laws>
+Glance BasicWorld<S, Laws>::glance_of(Slot slot) const {
+  Glance g = glance<S>(at(slot).motion, now_);
+  if constexpr (Laws::kCurved) {
+    const double elapsed = rough_seconds(now_, at(slot).motion.since);
+    const auto add = [&](const DoubleWord<S>& acceleration, double& low, double& velocity) {
+      const double gained = static_cast<double>(acceleration.hi) * elapsed;
+      low += 0.5 * gained * elapsed;
+      velocity += gained;
+      g.error += kFlightSlack<S> * std::abs(gained * elapsed) + kClock * std::abs(gained);
+    };
+    add(at(slot).acceleration.x, g.x_low, g.vx);
+    add(at(slot).acceleration.y, g.y_low, g.vy);
+  }
+  return g;
+}
+
+/// The sum of the components of a body's acceleration, m/s^2.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::pull_of(Slot slot) const {
+  if constexpr (Laws::kCurved) {
+    return static_cast<double>(detail::sum_norm(at(slot).acceleration)) * (1 + kScreenSlack<S>);
+  } else {
+    return 0;
+  }
+}
+
+/// For how long after `reference` both motions hold, s.
+template <class S, class Laws>
+S BasicWorld<S, Laws>::valid_for(Slot a, Slot b, const Time<S>& reference) const {
+  if constexpr (Laws::kCurved) {
+    const auto left = [&](Slot slot) {
+      const S whole = at(slot).moves_for.hi;
+      return whole - difference<S>(reference, at(slot).motion.since).hi;
+    };
+    return std::min(left(a), left(b));
+  } else {
+    return S(0);  // not asked for
+  }
+}
+
+/// Sets what the law makes of a velocity that has just been written.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::renew_law(Slot slot) {
+  if constexpr (Laws::kCurved) {
+    Body<S, Laws>& body = at(slot);
+    body.moves_for = {std::numeric_limits<S>::infinity(), S(0)};
+    body.acceleration = {};
+    if (!body.is_dynamic()) return;
+    if (body.support != kNoId) {
+      renew_rest(slot);
+      return;
+    }
+    body.acceleration = laws_.gravity;
+    if (!(laws_.deceleration > S(0))) return;
+    const Slowing<S> slow = slowing<S>(body.motion.velocity, laws_.deceleration);
+    body.acceleration = slow.acceleration;
+    body.moves_for = slow.moves_for;
+  }
+}
+
+/// What befalls a body by itself: its stop, or the end of its slide.
+template <class S, class Laws>
+std::optional<Event<S>> BasicWorld<S, Laws>::own_event(Slot slot) const {
+  const Body<S, Laws>& body = at(slot);
+  if (!(body.moves_for.hi < std::numeric_limits<S>::infinity())) return std::nullopt;
+  const auto instant = later_by(body.motion.since, body.moves_for.hi, body.moves_for.lo);
+  if (!instant) return std::nullopt;
+  Event<S> event;
+  event.at = *instant;
+  event.kind = EventKind::LawChange;
+  return event;
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::process_own_event(Slot slot, const Time<S>& instant) {
+  Body<S, Laws>& body = at(slot);
+  if (body.support != kNoId) {  // the end of the wall
+    rebase(slot, instant);
+    const Id wall = body.support;
+    let_go(slot);
+    body.slid_off = wall;
+    renew_law(slot);
+    predict(slot, /*changed=*/true);
+    return;
+  }
+  turn(slot, instant);
+  body.motion.position = stopping_place<S>(body.motion, body.moves_for);
+  body.motion.velocity = {};
+  body.motion.since = instant;
+  ++body.changes;
+  note_digest_stale(slot);
+  note_change(slot, ChangeKind::Moved);
+  renew_law(slot);
+  predict(slot, /*changed=*/true);
+}
+
+/// In uniform gravity, zero at the origin; J.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::potential_energy(Slot slot) const {
+  const DoubleWord<S> height = dot(position_of(slot, now_), laws_.gravity);
+  return -static_cast<double>(to_scalar(height * at(slot).mass));
+}
+
+template <class S, class Laws>
+Rotation BasicWorld<S, Laws>::rotation_of(Slot slot) const {
+  if constexpr (Laws::kPlain) {
+    const auto rotation = rotations_.find(slot);
+    return rotation == rotations_.end() ? Rotation{} : rotation->second;
+  } else {
+    return {at(slot).angle, static_cast<double>(to_scalar(at(slot).spin))};
+  }
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::set_rotation(Slot slot, const Rotation& rotation) {
+  if constexpr (Laws::kPlain) {
+    if (rotation.angle != 0 || rotation.spin != 0) rotations_[slot] = rotation;
+  } else {
+    at(slot).angle = rotation.angle;
+    at(slot).spin = detail::stored<S>(rotation.spin);
+  }
+}
+
+/// Brings the angle of a disk to an instant, before its motion is written.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::turn(Slot slot, const Time<S>& instant) {
+  const auto since = to_instant(at(slot).motion.since);
+  if constexpr (Laws::kPlain) {
+    if (rotations_.empty()) return;
+    const auto rotation = rotations_.find(slot);
+    if (rotation == rotations_.end()) return;
+    Rotation& r = rotation->second;
+    r.angle = turned(r.angle, r.spin, since, to_instant(instant));
+  } else {
+    const Rotation r = rotation_of(slot);
+    at(slot).angle = turned(r.angle, r.spin, since, to_instant(instant));
+  }
+}
+
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::impulse_of(const Contact& contact, const Time<S>& instant) const
+    -> ContactOutcome {
+  const Body<S, Laws>& a = at(contact.a);
+  const Body<S, Laws>& b = at(contact.b);
+  const DoubleWord2<S> velocity = velocity_of(contact.b, instant) - velocity_of(contact.a, instant);
+  if constexpr (Laws::kPlain) {
+    return {
+        elastic_impulse<S>(
+            contact_vector(contact), velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic()),
+        {},
+        false};
+  } else {
+    return lossy_impulse(contact, velocity, instant);
+  }
+}
+
+// An elastic contact is one of restitution 1, to the same bits.
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::lossy_impulse(const Contact& contact,
+                                        const DoubleWord2<S>& velocity,
+                                        const Time<S>& instant) const -> ContactOutcome {
+  const Body<S, Laws>& a = at(contact.a);
+  const Body<S, Laws>& b = at(contact.b);
+  S restitution = b.is_wall() ? laws_.wall_restitution : laws_.disk_restitution;
+  ContactOutcome outcome;
+  if (restitution < S(1) && collided_lately(a, instant, b)) {
+    restitution = S(1);
+    outcome.regularised = true;
+  }
+  const DoubleWord2<S> p = contact_vector(contact);
+  outcome.impulse = restitution_impulse<S>(
+      p, velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic(), restitution);
+  if constexpr (Laws::kCurved) {
+    if (is_last_bounce(contact, outcome.impulse, restitution)) {
+      outcome.is_last_bounce = true;
+      outcome.impulse = restitution_impulse<S>(
+          p, velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic(), S(0));
+    } else if (const S hop = hop_speed(contact, outcome.impulse, restitution); hop > S(0)) {
+      outcome.regularised = true;
+      outcome.impulse =
+          hop_impulse<S>(p, velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic(), hop);
+    }
+  }
+  if (laws_.is_rough) {
+    outcome.spins =
+        add_rough_impulse<S>(outcome.impulse,
+                             p,
+                             velocity,
+                             {a.mass, a.radius, !a.is_dynamic(), a.spin},
+                             {b.mass, b.radius, !b.is_dynamic(), b.spin},
+                             {restitution, laws_.tangential_restitution, laws_.friction});
+  }
+  return outcome;
+}
+
+// The rule of contact durations: has one of the two dynamic disks met another body less than that
+// ago?
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::collided_lately(const Body<S, Laws>& a,
+                                          const Time<S>& instant,
+                                          const Body<S, Laws>& b) const {
+  if (!(laws_.contact_duration > S(0))) return false;
+  const auto lately = [&](const Body<S, Laws>& body) {
+    return body.is_dynamic() &&
+           difference<S>(instant, body.last_contact).hi < laws_.contact_duration;
+  };
+  return lately(a) || lately(b);
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::note_contact(Slot slot,
+                                       const DoubleWord<S>& spin_change,
+                                       const Time<S>& instant) {
+  if constexpr (!Laws::kPlain) {
+    at(slot).last_contact = instant;
+    at(slot).spin = at(slot).spin + spin_change;
+  }
+}
+
+// Contacts that lose energy commute at a right angle alone, rough ones not even there.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::order_matters_between(
+    const Vector2& n1, const Vector2& n2, double w0, double w1, double w2) const {
+  if constexpr (!Laws::kPlain) {
+    if (laws_.is_rough) return true;
+    if (laws_.disk_restitution < S(1) || laws_.wall_restitution < S(1)) return !commute(n1, n2);
+  }
+  return order_matters(n1, n2, w0, w1, w2);
+}
+
+/// Of a disk that turns with moment of inertia m r^2 / 2, J.
+template <class S, class Laws>
+DoubleWord<S> BasicWorld<S, Laws>::twice_spin_energy(const Body<S, Laws>& body) const {
+  if constexpr (Laws::kPlain) {
+    return {};
+  } else {
+    if (!laws_.is_rough) return {};
+    return square(body.spin * body.radius) * body.mass * S(0.5);
+  }
+}
+
+template <class S, class Laws>
+template <class Sink>
+void BasicWorld<S, Laws>::write_body_part(Sink& sink, Slot slot) const {
+  if constexpr (Laws::kPlain) {
+    const Rotation rotation = rotation_of(slot);
+    sink.word(std::bit_cast<std::uint64_t>(rotation.angle));
+    sink.word(std::bit_cast<std::uint64_t>(rotation.spin));
+  } else {
+    sink.word(std::bit_cast<std::uint64_t>(at(slot).angle));
+    write_scalar(sink, at(slot).spin);
+    write_time(sink, at(slot).last_contact);
+  }
+  if constexpr (Laws::kCurved) {
+    sink.word(at(slot).support);
+    sink.word(at(slot).second_support);
+    sink.word(at(slot).slid_off);
+  }
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::read_body_part(ByteSource& source, Slot slot) {
+  const auto angle = std::bit_cast<double>(source.word());
+  if constexpr (Laws::kPlain) {
+    set_rotation(slot, {angle, std::bit_cast<double>(source.word())});
+  } else {
+    at(slot).angle = angle;
+    at(slot).spin = read_double_word<S>(source);
+    at(slot).last_contact = read_time<Time<S>>(source);
+  }
+  if constexpr (Laws::kCurved) {
+    at(slot).support = source.word();
+    at(slot).second_support = source.word();
+    at(slot).slid_off = source.word();
+  }
+}
+
+}  // namespace stoss::engine

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Rest under gravity, as a state of a disk: it slides along a wall's face, or lies on what holds
+// it, and costs no events until something happens to it. Worlds of AcceleratedLaws alone have this.
+//
+// What is treated: faces of walls (flat: the disk slides on for ever, inclined: with the pull along
+// the wall), and two supports, or one exactly below, that hold a slow disk up. What is not: a disk
+// that rolls over a wall's end or a static disk, and piles on dynamic disks. With a rest speed they
+// hop: they separate at no less than that speed times the steepness of the contact, and the contact
+// is marked as regularised. Without one their bounces collapse into one instant, where the world
+// stops and names the disk.
+
+#include "basic_world.hpp"
+#include "motion_law/rest.hpp"
+
+namespace stoss::engine {
+
+/// Is the pair a disk and what it slides or lies on? They have no contacts with each other.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::rests_on(Slot a, Slot b) const {
+  const auto bears = [this](Slot disk, Slot support) {
+    const Id id = at(support).id;
+    return at(disk).support == id || at(disk).second_support == id;
+  };
+  return bears(a, b) || bears(b, a);
+}
+
+/// Ends a rest: the disk falls freely from here on. The caller writes its motion and its law.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::let_go([[maybe_unused]] Slot slot) {
+  if constexpr (Laws::kCurved) {
+    at(slot).support = kNoId;
+    at(slot).second_support = kNoId;
+    at(slot).slid_off = kNoId;
+  }
+}
+
+/// What a contact with something immovable does when its rebound is too slow to matter and gravity
+/// presses the disk on it: nothing is thrown back.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_last_bounce(const Contact& contact,
+                                         const PairImpulse<S>& elastic,
+                                         const S& restitution) const {
+  if (at(contact.a).is_dynamic() == at(contact.b).is_dynamic()) return false;
+  if (!(elastic.approach_speed * restitution <= laws_.rest_speed)) return false;
+  const Vector2 normal(static_cast<double>(elastic.normal_x),
+                       static_cast<double>(elastic.normal_y));
+  const Vector2 down = detail::rounded(laws_.gravity);
+  const bool a_falls = at(contact.a).is_dynamic();
+  if (!((a_falls ? down.dot(normal) : -down.dot(normal)) > 0)) return false;
+  return contact.kind == EventKind::DiskWall || finds_hold(contact).has_value();
+}
+
+/// For a disk that is pressed so slowly on what cannot hold it that its bounces would collapse: the
+/// speed of its least bounce, m/s, which takes as long on every slope; else 0.
+template <class S, class Laws>
+S BasicWorld<S, Laws>::hop_speed(const Contact& contact,
+                                 const PairImpulse<S>& elastic,
+                                 const S& restitution) const {
+  const Vector2 pull = detail::rounded(at(contact.b).acceleration - at(contact.a).acceleration);
+  const Vector2 normal(static_cast<double>(elastic.normal_x),
+                       static_cast<double>(elastic.normal_y));
+  const double pressed = -pull.dot(normal) / detail::rounded(laws_.gravity).norm();
+  if (!(pressed > 0)) return S(0);
+  const S speed = laws_.hop_speed * S(pressed);
+  return elastic.approach_speed * restitution < speed ? speed : S(0);
+}
+
+/// The support that holds a slow disk up together with the one it has just met; kNoId where that
+/// one is enough.
+template <class S, class Laws>
+std::optional<Id> BasicWorld<S, Laws>::finds_hold(const Contact& contact) const {
+  constexpr double kTouching = 1e-9;  // of the radius; chosen: far above a last bounce's height
+  const bool a_falls = at(contact.a).is_dynamic();
+  const Slot disk = a_falls ? contact.a : contact.b;
+  const Slot first = a_falls ? contact.b : contact.a;
+  const DoubleWord2<S> slip = velocity_of(disk, now_) - velocity_of(first, now_);
+  if (!(detail::sum_norm(slip) <= S(2) * laws_.rest_speed)) return std::nullopt;
+  const Vector2 down = detail::rounded(laws_.gravity);
+  const Vector2 up_from_first = -normal_towards(disk, first);
+  if (contact.kind != EventKind::DiskWall && holds_up(down, up_from_first, up_from_first)) {
+    return kNoId;
+  }
+  std::optional<Id> hold;
+  for_each_neighbour(disk, [&](Slot other) {
+    if (other == first || at(other).is_dynamic()) return;
+    if (hold && at(other).id > *hold) return;
+    if (clearance(disk, other) > kTouching * static_cast<double>(at(disk).radius)) return;
+    const DoubleWord2<S> apart = velocity_of(first, now_) - velocity_of(other, now_);
+    if (detail::sum_norm(apart) > S(0)) return;
+    if (holds_up(down, up_from_first, -normal_towards(disk, other))) hold = at(other).id;
+  });
+  return hold;
+}
+
+/// The disk of a last bounce, whose velocity is written, takes its place on the support.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::settle_down(const Contact& contact) {
+  const bool a_falls = at(contact.a).is_dynamic();
+  const Slot disk = a_falls ? contact.a : contact.b;
+  const Slot support = a_falls ? contact.b : contact.a;
+  const std::optional<Id> hold = finds_hold(contact);
+  at(disk).support = at(support).id;
+  if (hold) {
+    at(disk).second_support = *hold != kNoId ? *hold : at(support).id;
+    at(disk).motion.velocity = velocity_of(support, now_);
+  }
+  renew_law(disk);
+}
+
+/// The acceleration of a disk that rests, and for how long it has it.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::renew_rest(Slot slot) {
+  Body<S, Laws>& body = at(slot);
+  body.acceleration = {};
+  if (body.second_support != kNoId) return;
+  const Slot wall = slots_.at(body.support);
+  const DoubleWord2<S>& edge = shape(wall).edge;
+  body.acceleration = pull_along(laws_.gravity, edge);
+  body.moves_for = slide_lasts(body.motion.position - position_of(wall, body.motion.since),
+                               body.motion.velocity - velocity_of(wall, body.motion.since),
+                               body.acceleration,
+                               edge);
+}
+
+/// Do bytes name supports that there are, and that can be some?
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::has_sound_supports([[maybe_unused]] Slot slot) const {
+  if constexpr (Laws::kCurved) {
+    const Body<S, Laws>& body = at(slot);
+    const auto is_fixed = [this](Id id) {
+      const auto found = slots_.find(id);
+      return found != slots_.end() && !at(found->second).is_dynamic();
+    };
+    if (body.support == kNoId) return body.second_support == kNoId;
+    if (!body.is_dynamic() || !is_fixed(body.support)) return false;
+    if (body.second_support != kNoId) return is_fixed(body.second_support);
+    return at(slots_.at(body.support)).is_wall();
+  } else {
+    return true;
+  }
+}
+
+/// A support is about to move or to go: whoever rests on it is let go, and is returned.
+template <class S, class Laws>
+std::vector<Slot> BasicWorld<S, Laws>::wake_disks_on(Slot support) {
+  std::vector<Slot> woken;
+  for_each_neighbour(support, [&](Slot other) {
+    if (at(other).is_dynamic() && rests_on(other, support)) woken.push_back(other);
+  });
+  for (const Slot disk : woken) {
+    rebase(disk, now_);
+    let_go(disk);
+    renew_law(disk);
+  }
+  return woken;
+}
+
+}  // namespace stoss::engine

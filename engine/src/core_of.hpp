@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// What world_core.hpp promises of one arithmetic; the translation units that include this
+// instantiate one function each.
+
+#include "basic_world.hpp"
+
+namespace stoss::engine {
+
+template <class S>
+std::unique_ptr<WorldCore> make_plain_core(const WorldOptions& options) {
+  return std::make_unique<BasicWorld<S, PlainLaws>>(options);
+}
+
+template <class S>
+std::unique_ptr<WorldCore> make_effects_core(const WorldOptions& options) {
+  if (options.effects.gravity || options.effects.floor_friction) {
+    return std::make_unique<BasicWorld<S, AcceleratedLaws>>(options);
+  }
+  return std::make_unique<BasicWorld<S, ContactLaws>>(options);
+}
+
+}  // namespace stoss::engine

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core_of.hpp"
+
+template std::unique_ptr<stoss::engine::WorldCore> stoss::engine::make_effects_core<float>(
+    const WorldOptions& options);
