@@ -73,6 +73,11 @@ std::string run_tie_order(const Case& c);
 std::string run_repeated_rule(const Case& c);
 std::string run_scene_events(const Case& c);
 std::string run_invalid_input(const Case& c);
+std::string run_gravity_segment(const Case& c);
+std::string run_gravity_corner(const Case& c);
+std::string run_bounce_series(const Case& c);
+std::string run_resting(const Case& c);
+std::string run_friction_pair(const Case& c);
 
 /// Seconds between two instants, exactly.
 inline Real seconds_from(const engine::Instant& start, const engine::Instant& t) {

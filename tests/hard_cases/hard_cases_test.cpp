@@ -52,16 +52,15 @@ const std::map<std::string, std::string (*)(const Case&)> kRunners = {
     {"tie_order", run_tie_order},
     {"repeated_rule", run_repeated_rule},
     {"scene_events", run_scene_events},
-    {"invalid_input", run_invalid_input}};
+    {"invalid_input", run_invalid_input},
+    {"gravity_segment", run_gravity_segment},
+    {"gravity_corner", run_gravity_corner},
+    {"bounce_series", run_bounce_series},
+    {"resting", run_resting},
+    {"friction_pair", run_friction_pair}};
 
-const std::map<std::string, std::string> kNeeds = {{"inside_circle", "arcs"},
-                                                   {"gravity_segment", "gravity"},
-                                                   {"gravity_corner", "gravity"},
-                                                   {"growing_pair", "growing disks"},
-                                                   {"friction_pair", "friction"},
-                                                   {"drag_pair", "drag"},
-                                                   {"bounce_series", "gravity and restitution"},
-                                                   {"resting", "gravity and restitution"}};
+const std::map<std::string, std::string> kNeeds = {
+    {"inside_circle", "arcs"}, {"growing_pair", "growing disks"}, {"drag_pair", "drag"}};
 
 class HardCase : public testing::TestWithParam<Case> {};
 
