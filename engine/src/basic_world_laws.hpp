@@ -7,6 +7,7 @@
 #include "basic_world.hpp"
 #include "contact_law/restitution.hpp"
 #include "contact_law/rough.hpp"
+#include "motion_law/accelerated.hpp"
 #include "motion_law/floor_friction.hpp"
 #include "simultaneous.hpp"
 
@@ -16,11 +17,7 @@ template <class S, class Laws>
 DoubleWord2<S> BasicWorld<S, Laws>::position_of(Slot slot, const Time<S>& instant) const {
   const Motion<S>& motion = at(slot).motion;
   if constexpr (Laws::kCurved) {
-    if (detail::is_zero(at(slot).acceleration)) return position_at(motion, instant);
-    if (instant == motion.since) return motion.position;
-    const DoubleWord<S> elapsed = difference<S>(instant, motion.since);
-    const AcceleratedMotion<S> own{motion.position, motion.velocity, at(slot).acceleration, S(0)};
-    return displacement_at(own, Duration<S>{elapsed.hi, elapsed.lo});
+    return position_at(motion, at(slot).acceleration, instant);
   } else {
     return position_at(motion, instant);
   }
@@ -31,11 +28,10 @@ DoubleWord2<S> BasicWorld<S, Laws>::velocity_of(Slot slot,
                                                 [[maybe_unused]] const Time<S>& instant) const {
   const Motion<S>& motion = at(slot).motion;
   if constexpr (Laws::kCurved) {
-    if (instant != motion.since && !detail::is_zero(at(slot).acceleration)) {
-      return motion.velocity + at(slot).acceleration * difference<S>(instant, motion.since);
-    }
+    return velocity_at(motion, at(slot).acceleration, instant);
+  } else {
+    return motion.velocity;
   }
-  return motion.velocity;
 }
 
 template <class S, class Laws>
@@ -58,11 +54,7 @@ Glance BasicWorld<S, Laws>::glance_of(Slot slot) const {
 /// The sum of the components of a body's acceleration, m/s^2.
 template <class S, class Laws>
 double BasicWorld<S, Laws>::pull_of(Slot slot) const {
-  if constexpr (Laws::kCurved) {
-    return static_cast<double>(detail::sum_norm(at(slot).acceleration)) * (1 + kScreenSlack<S>);
-  } else {
-    return 0;
-  }
+  return static_cast<double>(detail::sum_norm(at(slot).acceleration)) * (1 + kScreenSlack<S>);
 }
 
 /// For how long after `reference` both motions hold, s.

@@ -4,6 +4,7 @@
 // Questions: evaluations of the stored motions at now(). Nothing here writes.
 
 #include "basic_world.hpp"
+#include "motion_law/accelerated.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,15 +30,6 @@ const std::vector<Slot>& BasicWorld<S, Laws>::ordered_slots() const {
   }
   return ordered_;
 }
-
-namespace detail {
-
-template <class S>
-Vector2 rounded(const DoubleWord2<S>& v) {
-  return {static_cast<double>(to_scalar(v.x)), static_cast<double>(to_scalar(v.y))};
-}
-
-}  // namespace detail
 
 template <class S, class Laws>
 BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contact_time/accelerated.hpp"
 #include "effects_bytes.hpp"
+#include "motion_law/accelerated.hpp"
 #include "world_core.hpp"
 
 #include <stoss/engine/motion.hpp>
@@ -144,33 +144,18 @@ double seconds_between(const Instant& earlier, const Instant& later) {
 namespace {
 
 template <class S>
-AcceleratedMotion<S> accelerated_motion(const MotionRecord& record) {
-  const Motion<S> motion = from_record<S>(record);
-  return {
-      motion.position, motion.velocity, {from_split<S>(record.ax), from_split<S>(record.ay)}, S(0)};
-}
-
-/// With the operations of a world, so that the bits are its own.
-template <class S>
-DoubleWord2<S> position_in(const MotionRecord& record, const Instant& instant) {
-  const AcceleratedMotion<S> motion = accelerated_motion<S>(record);
-  if (instant == record.since || detail::is_zero(motion.acceleration)) {
-    return position_at(from_record<S>(record), from_instant<Time<S>>(instant));
-  }
-  const DoubleWord<S> elapsed = difference<S>(instant, record.since);
-  return displacement_at(motion, Duration<S>{elapsed.hi, elapsed.lo});
+DoubleWord2<S> acceleration_of(const MotionRecord& record) {
+  return {from_split<S>(record.ax), from_split<S>(record.ay)};
 }
 
 template <class S>
-DoubleWord2<S> velocity_in(const MotionRecord& record, const Instant& instant) {
-  const AcceleratedMotion<S> motion = accelerated_motion<S>(record);
-  if (instant == record.since || detail::is_zero(motion.acceleration)) return motion.velocity;
-  return motion.velocity + motion.acceleration * difference<S>(instant, record.since);
+Vector2 position_in(const MotionRecord& record, const Instant& instant) {
+  return detail::rounded(position_at(from_record<S>(record), acceleration_of<S>(record), instant));
 }
 
 template <class S>
-Vector2 rounded(const DoubleWord2<S>& v) {
-  return {static_cast<double>(to_scalar(v.x)), static_cast<double>(to_scalar(v.y))};
+Vector2 velocity_in(const MotionRecord& record, const Instant& instant) {
+  return detail::rounded(velocity_at(from_record<S>(record), acceleration_of<S>(record), instant));
 }
 
 }  // namespace
@@ -178,15 +163,15 @@ Vector2 rounded(const DoubleWord2<S>& v) {
 // A record holds double-words, so double's evaluation is the best of all wider worlds, too, and the
 // same on every machine.
 Vector2 evaluate(const MotionRecord& motion, Arithmetic arithmetic, const Instant& instant) {
-  return arithmetic == Arithmetic::Float ? rounded(position_in<float>(motion, instant))
-                                         : rounded(position_in<double>(motion, instant));
+  return arithmetic == Arithmetic::Float ? position_in<float>(motion, instant)
+                                         : position_in<double>(motion, instant);
 }
 
 Vector2 evaluate_velocity(const MotionRecord& motion,
                           Arithmetic arithmetic,
                           const Instant& instant) {
-  return arithmetic == Arithmetic::Float ? rounded(velocity_in<float>(motion, instant))
-                                         : rounded(velocity_in<double>(motion, instant));
+  return arithmetic == Arithmetic::Float ? velocity_in<float>(motion, instant)
+                                         : velocity_in<double>(motion, instant);
 }
 
 double turned(double angle, double spin, const Instant& since, const Instant& instant) {

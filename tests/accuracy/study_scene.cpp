@@ -31,11 +31,7 @@ using namespace stoss::client;
 
 translate::SceneBodies bodies_of(const std::string& path) {
   translate::SceneBodies bodies = cli::scene_bodies(path);
-  const std::vector<engine::Id> ids = cli::value_or_refuse(translate::make_world(bodies, {})).ids;
-  for (std::size_t i = 0; i < bodies.disks.size(); ++i) bodies.disks[i].id = ids[i];
-  for (std::size_t i = 0; i < bodies.walls.size(); ++i) {
-    bodies.walls[i].id = ids[bodies.disks.size() + i];
-  }
+  translate::adopt_ids(bodies, cli::value_or_refuse(translate::make_world(bodies, {})).ids);
   return bodies;
 }
 

@@ -113,13 +113,22 @@ inline void expect_vector(const Case& c, const Real2& value, const Real2& truth,
       << value.x << ' ' << value.y << " should be " << truth.x << ' ' << truth.y;
 }
 
-/// A world with the case's coefficient of restitution, if it has one.
-inline engine::World world_of(const Case& c, const engine::Instant& start = {}) {
+/// The case's coefficient of restitution, if it has one.
+inline engine::Effects effects_of(const Case& c) {
   engine::Effects effects;
   if (c.has("e") && c.number("e") != 1) {
     effects.restitution = engine::Restitution{c.number("e"), c.number("e"), 0, 0};
   }
-  return engine::World(engine::WorldOptions{.start = start, .effects = effects});
+  return effects;
+}
+
+inline engine::World world_of(const Case& c, const engine::Instant& start = {}) {
+  return engine::World(engine::WorldOptions{.start = start, .effects = effects_of(c)});
+}
+
+/// The case's disk, with id 1.
+inline engine::DiskSpec disk_of(const Case& c) {
+  return test::disk(1, c.vector("p"), c.vector("v"), c.number("r"));
 }
 
 }  // namespace stoss::hard_cases

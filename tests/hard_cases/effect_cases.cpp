@@ -14,16 +14,9 @@ using engine::World;
 
 /// A world under the case's gravity, with its coefficient of restitution.
 World falling_world(const Case& c, const Vector2& gravity) {
-  engine::Effects effects;
+  engine::Effects effects = effects_of(c);
   effects.gravity = engine::Gravity{gravity};
-  if (c.has("e") && c.number("e") != 1) {
-    effects.restitution = engine::Restitution{c.number("e"), c.number("e"), 0, 0};
-  }
   return World(engine::WorldOptions{.start = {}, .effects = effects});
-}
-
-engine::DiskSpec disk_of(const Case& c) {
-  return test::disk(1, c.vector("p"), c.vector("v"), c.number("r"));
 }
 
 /// The first contact is when and where it should be, and has the right velocity after.

@@ -20,10 +20,6 @@ WallSpec wall_of(const Case& c) {
   return test::wall(2, c.vector("a"), c.vector("b"), velocity);
 }
 
-engine::DiskSpec disk_of(const Case& c) {
-  return test::disk(1, c.vector("p"), c.vector("v"), c.number("r"));
-}
-
 // A wall of no length is refused; as a point, the kernel meets it.
 std::string run_point(const Case& c) {
   World world = world_of(c);

@@ -182,4 +182,25 @@ inline Fingerprint fingerprint(const World& world) {
   return {world.state_hash(), world.serialise(), world.ids()};
 }
 
+/// The world of `make(broad phase)` tells one story: the same bytes at `until` seconds in one leap
+/// and in ticks over all pairs, and `further` seconds later after a pause in bytes. Returns it
+/// then.
+template <class Make>
+World expect_one_story(const Make& make, double until, int ticks, double further) {
+  World leap = make(engine::BroadPhaseKind::Neighbours);
+  World slow = make(engine::BroadPhaseKind::AllPairs);
+  EXPECT_TRUE(leap.advance_to(seconds(until)).ok());
+  for (int i = 1; i <= ticks; ++i) {
+    EXPECT_TRUE(slow.advance_to(seconds(until * i / ticks)).ok());
+  }
+  EXPECT_EQ(leap.serialise(), slow.serialise());
+  EXPECT_EQ(leap.state_hash(), slow.state_hash());
+  World again = World::deserialise(leap.serialise()).value();
+  EXPECT_EQ(again.effects(), leap.effects());
+  run_for(leap, further);
+  run_for(again, further);
+  EXPECT_EQ(leap.serialise(), again.serialise());
+  return leap;
+}
+
 }  // namespace stoss::test

@@ -69,11 +69,7 @@ accuracy::Options options_of(const AccuracyTexts& texts) {
 translate::SceneBodies checked_bodies(const std::string& path) {
   translate::SceneBodies bodies = scene_bodies(path);
   refuse_effects(bodies, "this study");
-  const std::vector<engine::Id> ids = value_or_refuse(translate::make_world(bodies, {})).ids;
-  for (std::size_t i = 0; i < bodies.disks.size(); ++i) bodies.disks[i].id = ids[i];
-  for (std::size_t i = 0; i < bodies.walls.size(); ++i) {
-    bodies.walls[i].id = ids[bodies.disks.size() + i];
-  }
+  translate::adopt_ids(bodies, value_or_refuse(translate::make_world(bodies, {})).ids);
   const bool moves = std::any_of(bodies.disks.begin(), bodies.disks.end(), [](const auto& disk) {
     return disk.kind == engine::BodyKind::Dynamic;
   });

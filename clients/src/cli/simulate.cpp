@@ -138,12 +138,10 @@ void simulate_in_steps(const SimulateOptions& options,
                        translate::SceneBodies bodies,
                        CollisionLog& log) {
   // The exact world judges the scene and gives out ids, so that both methods take the same scenes.
-  const std::vector<engine::Id> ids =
-      value_or_refuse(translate::make_world(bodies, {options.arithmetic, options.broad_phase})).ids;
-  for (std::size_t i = 0; i < bodies.disks.size(); ++i) bodies.disks[i].id = ids[i];
-  for (std::size_t i = 0; i < bodies.walls.size(); ++i) {
-    bodies.walls[i].id = ids[bodies.disks.size() + i];
-  }
+  translate::adopt_ids(
+      bodies,
+      value_or_refuse(translate::make_world(bodies, {options.arithmetic, options.broad_phase}))
+          .ids);
   if (!options.until) throw UsageError("--method fixed-step needs --until");
   refuse_effects(bodies, "the stepped method");
   baseline::FixedStep world(bodies.disks, bodies.walls, bodies.start, *options.step);

@@ -48,14 +48,6 @@ template <class S>
   return motion.position + (motion.velocity + a * half_time) * time;
 }
 
-/// Relative velocity in metres per second at a duration.
-template <class S>
-[[nodiscard]] inline DoubleWord2<S> velocity_at(const AcceleratedMotion<S>& motion,
-                                                const Duration<S>& t) noexcept {
-  if (t.lo == S(0)) return motion.velocity + motion.acceleration * t.hi;
-  return motion.velocity + motion.acceleration * DoubleWord<S>{t.hi, t.lo};
-}
-
 namespace detail {
 
 template <class S>

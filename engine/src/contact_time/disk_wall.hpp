@@ -18,6 +18,7 @@
 
 #include "contact_time/contact_time.hpp"
 #include "contact_time/disk_disk.hpp"
+#include "contact_time/wall_terms.hpp"
 #include "stoss/engine/double_word.hpp"
 
 #include <cmath>
@@ -29,12 +30,6 @@ namespace stoss::engine {
 enum class WallFeature { Face, Start, End };
 
 namespace detail {
-
-/// The sum of the absolute values of a cross product's two terms.
-template <class S>
-[[nodiscard]] inline S cross_terms(const DoubleWord2<S>& a, const DoubleWord2<S>& b) noexcept {
-  return S(magnitude(S(a.x.hi * b.y.hi)) + magnitude(S(a.y.hi * b.x.hi)));
-}
 
 /// t = 0 for a disk that touches the line and closes in, at a rate `w` that rounding cannot feign.
 template <class S>
@@ -78,10 +73,7 @@ template <class S>
   const S result = rounded_cross(a, b);
   if constexpr (kCompensated<S>) {
     if (magnitude(result) < S(kThirdWordShare) * epsilon<S>() * cross_terms(a, b)) {
-      LongSum<S> sum;
-      sum.add_product(a.x, b.y);
-      sum.add_product(-a.y, b.x);
-      return to_scalar(sum.two_words());
+      return to_scalar(cross_in_three_words(a, b));
     }
   }
   return result;
@@ -97,18 +89,7 @@ template <class S>
   const DoubleWord<S> length = sqrt(square_norm(edge));
   const S gap = to_scalar((side < 0 ? -height : height) - length * radius);
   if (magnitude(gap) >= S(kThirdWordShare) * epsilon<S>() * cross_terms(edge, position)) return gap;
-  LongSum<S> root;  // what is left of |e|^2 yields the third word of |e|
-  root.add_product(edge.x, edge.x);
-  root.add_product(edge.y, edge.y);
-  root.add_product(-length, length);
-  const S third = to_scalar(root.two_words()) / (length.hi + length.hi);
-  const DoubleWord2<S> turned = side < 0 ? -edge : edge;
-  LongSum<S> sum;
-  sum.add_product(turned.x, position.y);
-  sum.add_product(-turned.y, position.x);
-  sum.add_product(-length, DoubleWord<S>{radius, S(0)});
-  sum.add(S(-radius * third));
-  return to_scalar(sum.two_words());
+  return to_scalar(face_gap_in_three_words(position, edge, radius, side));
 }
 
 /// (3) for lengths and speeds within Range<S>.

@@ -11,10 +11,15 @@
 #pragma once
 
 #include "contact_time/contact_time.hpp"
-#include "contact_time/disk_wall.hpp"
 #include "stoss/engine/double_word.hpp"
 
 namespace stoss::engine::detail {
+
+/// The sum of the absolute values of a cross product's two terms.
+template <class S>
+[[nodiscard]] inline S cross_terms(const DoubleWord2<S>& a, const DoubleWord2<S>& b) noexcept {
+  return S(magnitude(S(a.x.hi * b.y.hi)) + magnitude(S(a.y.hi * b.x.hi)));
+}
 
 /// (1) in three words, rounded to two.
 template <class S>

@@ -159,6 +159,13 @@ engine::Outcome<SceneWorld> make_world(const SceneBodies& bodies, const WorldCho
   return SceneWorld{std::move(world), std::move(made).value()};
 }
 
+void adopt_ids(SceneBodies& bodies, std::span<const engine::Id> ids) {
+  for (std::size_t i = 0; i < bodies.disks.size(); ++i) bodies.disks[i].id = ids[i];
+  for (std::size_t i = 0; i < bodies.walls.size(); ++i) {
+    bodies.walls[i].id = ids[bodies.disks.size() + i];
+  }
+}
+
 engine::Outcome<engine::World> make_world(const Scene& scene, const WorldChoice& choice) {
   const auto bodies = bodies_of(scene);
   if (!bodies) return bodies.reject();

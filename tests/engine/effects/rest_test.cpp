@@ -189,15 +189,7 @@ TEST(Rest, TellsOneStoryWhateverTheTicksTheBroadPhaseAndAPauseInBytes) {
     test::must_spawn(world, disks, test::chain(100, ground));
     return world;
   };
-  World leap = heap(BroadPhaseKind::Neighbours);
-  World ticks = heap(BroadPhaseKind::AllPairs);
-  ASSERT_TRUE(leap.advance_to(test::seconds(3)).ok());
-  for (int i = 1; i <= 300; ++i) ASSERT_TRUE(ticks.advance_to(test::seconds(0.01 * i)).ok());
-  EXPECT_EQ(leap.serialise(), ticks.serialise());
-  World again = World::deserialise(leap.serialise()).value();
-  run_for(leap, 3);
-  run_for(again, 3);
-  EXPECT_EQ(leap.serialise(), again.serialise());
+  test::expect_one_story(heap, 3, 300, 3);
 }
 
 }  // namespace

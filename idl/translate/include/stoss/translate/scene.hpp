@@ -59,6 +59,9 @@ struct SceneWorld {
 [[nodiscard]] engine::Outcome<SceneWorld> make_world(const SceneBodies& bodies,
                                                      const WorldChoice& choice);
 
+/// Gives the bodies the ids that their world gave them.
+void adopt_ids(SceneBodies& bodies, std::span<const engine::Id> ids);
+
 /// Both steps in one.
 [[nodiscard]] engine::Outcome<engine::World> make_world(const Scene& scene,
                                                         const WorldChoice& choice);
