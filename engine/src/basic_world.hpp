@@ -110,6 +110,12 @@ class BasicWorld final : public WorldCore {
     bool is_last_bounce = false;  ///< the disk stays on what it has met
   };
 
+  /// Of a disk under the thermostat.
+  struct Kicks {
+    Time<S> next = Time<S>::never();
+    std::uint64_t count = 0;  ///< had so far
+  };
+
   /// Names the offending element of a command in a refusal.
   struct Place {
     const char* list;
@@ -179,6 +185,7 @@ class BasicWorld final : public WorldCore {
   S valid_for(Slot a, Slot b, const Time<S>& reference) const;
   void renew_law(Slot slot);
   std::optional<Event<S>> own_event(Slot slot) const;
+  std::optional<Event<S>> law_change(Slot slot) const;
   void process_own_event(Slot slot, const Time<S>& instant);
   double potential_energy(Slot slot) const;
   Rotation rotation_of(Slot slot) const;
@@ -211,6 +218,22 @@ class BasicWorld final : public WorldCore {
   void renew_rest(Slot slot);
   bool has_sound_supports(Slot slot) const;
   std::vector<Slot> wake_disks_on(Slot support);
+
+  // basic_world_thermostat.hpp
+  Kicks first_kick(Slot slot, const Thermostat& thermostat) const;
+  Time<S> next_kick(Slot slot,
+                    const Thermostat& thermostat,
+                    std::uint64_t number,
+                    const Time<S>& from) const;
+  void start_kicks(Slot slot);
+  std::optional<Event<S>> kick_event(Slot slot) const;
+  void kick(Slot slot, const Time<S>& instant);
+  template <class Sink>
+  void write_kick_count(Sink& sink) const;
+  template <class Sink>
+  void write_kicks(Sink& sink, Slot slot) const;
+  void read_kicks(ByteSource& source, Slot slot);
+  bool has_sound_kicks(Slot slot) const;
 
   // basic_world_commands.hpp
   std::optional<Reject> check_disk(const DiskSpec& spec, std::size_t i) const;
@@ -272,6 +295,7 @@ class BasicWorld final : public WorldCore {
   std::vector<std::int32_t> free_shapes_;
   std::unordered_map<Id, Slot> slots_;            // looked up, never iterated
   std::unordered_map<Slot, Rotation> rotations_;  // of turning disks in a plain world; likewise
+  std::vector<Kicks> kicks_;                      // by slot; empty without a thermostat
   std::size_t walls_in_use_ = 0;
 
   Neighbours neighbours_;
@@ -315,3 +339,4 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
 #include "basic_world_laws.hpp"
 #include "basic_world_predict.hpp"
 #include "basic_world_rest.hpp"
+#include "basic_world_thermostat.hpp"

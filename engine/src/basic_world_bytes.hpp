@@ -4,9 +4,9 @@
 // The world as canonical bytes and as a digest.
 //
 // Layout, in 64-bit words: magic, format, arithmetic and effects, now, collisions at now that count
-// towards a stall, collisions, regularised, next id, retired runs (count, then first and last of
-// each), bodies (count, then each in the order of ids). No event, box, list or slot is written:
-// predictions are functions of the motions and are made anew.
+// towards a stall, collisions, regularised, kicks (with a thermostat), next id, retired runs
+// (count, then first and last of each), bodies (count, then each in the order of ids). No event,
+// box, list or slot is written: predictions are functions of the motions and are made anew.
 
 #include "basic_world.hpp"
 #include "bytes.hpp"
@@ -47,6 +47,7 @@ std::vector<std::byte> BasicWorld<S, Laws>::serialise() const {
   sink.word(crowded_instant_ == now_ ? crowd_ : 0);
   sink.word(counters_.collisions);
   sink.word(counters_.regularised);
+  write_kick_count(sink);
   sink.word(next_id_);
   sink.word(ledger_.runs().size());
   for (const auto& [first, last] : ledger_.runs()) {
@@ -76,6 +77,7 @@ std::uint64_t BasicWorld<S, Laws>::state_hash() const {
   write_identity(header, {arithmetic_, effects()});
   header.word(counters_.collisions);
   header.word(counters_.regularised);
+  write_kick_count(header);
   header.word(next_id_);
   for (const auto& [first, last] : ledger_.runs()) {
     header.word(first);
@@ -113,6 +115,7 @@ Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
   fresh.crowd_ = source.word();
   fresh.counters_.collisions = source.word();
   fresh.counters_.regularised = source.word();
+  if (effects().thermostat) fresh.counters_.kicks = source.word();
   const Id next_id = source.word();
   const std::uint64_t run_count = source.word();
   if (run_count > source.words_left()) return damaged("truncated");
@@ -196,7 +199,8 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
   const bool moves = m.velocity.x.hi != S(0) || m.velocity.y.hi != S(0);
   if (body.type == BodyType::Static && moves) return false;
   const Rotation rotation = rotation_of(slot);
-  return body.radius > S(0) && static_cast<double>(body.radius) <= detail::kLengthMax<S> &&
+  return has_sound_kicks(slot) && body.radius > S(0) &&
+         static_cast<double>(body.radius) <= detail::kLengthMax<S> &&
          detail::is_usable_mass<S>(static_cast<double>(body.mass)) &&
          std::isfinite(rotation.angle) && std::isfinite(rotation.spin);
 }

@@ -261,6 +261,7 @@ Slot BasicWorld<S, Laws>::place(const DiskSpec& spec) {
   body.radius = S(spec.radius);
   body.mass = S(spec.mass);
   set_rotation(slot, {detail::canonical(spec.angle), detail::canonical(spec.spin)});
+  start_kicks(slot);
   renew_law(slot);
   return slot;
 }

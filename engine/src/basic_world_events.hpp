@@ -91,6 +91,12 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
     predict(slot, /*changed=*/true);
     return true;
   }
+  if constexpr (!Laws::kPlain) {
+    if (event.kind == EventKind::Kick) {
+      kick(slot, event.at);
+      return true;
+    }
+  }
   if constexpr (Laws::kCurved) {
     if (event.partner < 0) {
       process_own_event(slot, event.at);

@@ -91,9 +91,20 @@ void BasicWorld<S, Laws>::renew_law(Slot slot) {
   }
 }
 
-/// What befalls a body by itself: its stop, or the end of its slide.
+/// What befalls a body by itself, first of all.
 template <class S, class Laws>
 std::optional<Event<S>> BasicWorld<S, Laws>::own_event(Slot slot) const {
+  std::optional<Event<S>> first = kick_event(slot);
+  if constexpr (Laws::kCurved) {
+    const auto change = law_change(slot);
+    if (change && !(first && first->at < change->at)) first = change;
+  }
+  return first;
+}
+
+/// Its stop, or the end of its slide.
+template <class S, class Laws>
+std::optional<Event<S>> BasicWorld<S, Laws>::law_change(Slot slot) const {
   const Body<S, Laws>& body = at(slot);
   if (!(body.moves_for.hi < std::numeric_limits<S>::infinity())) return std::nullopt;
   const auto instant = later_by(body.motion.since, body.moves_for.hi, body.moves_for.lo);
@@ -289,6 +300,7 @@ void BasicWorld<S, Laws>::write_body_part(Sink& sink, Slot slot) const {
     sink.word(at(slot).second_support);
     sink.word(at(slot).slid_off);
   }
+  write_kicks(sink, slot);
 }
 
 template <class S, class Laws>
@@ -306,6 +318,7 @@ void BasicWorld<S, Laws>::read_body_part(ByteSource& source, Slot slot) {
     at(slot).second_support = source.word();
     at(slot).slid_off = source.word();
   }
+  read_kicks(source, slot);
 }
 
 }  // namespace stoss::engine

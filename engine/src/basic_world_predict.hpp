@@ -233,7 +233,7 @@ void BasicWorld<S, Laws>::predict(Slot slot, bool changed) {
   const auto ids = id_lookup();
   const Glance here = glance_of(slot);
   Event<S> best = renewal_event(slot, here);
-  if constexpr (Laws::kCurved) {
+  if constexpr (!Laws::kPlain) {
     const auto own = own_event(slot);
     if (own && earlier(*own, slot, best, slot, ids)) best = *own;
   }

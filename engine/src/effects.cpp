@@ -8,6 +8,10 @@ namespace stoss::engine {
 namespace {
 
 constexpr double kPullMax = 1e100;  // m/s^2; chosen: squares of what it does in a year stay finite
+/// J; chosen: the speeds of the lightest disk that a world in float takes stay in its range.
+constexpr double kTemperatureMax = 1e25;
+/// 1/s; chosen: waits stay far above the resolution of an Instant.
+constexpr double kKickRateMax = 1e9;
 
 std::optional<Reject> in_range(const char* field, double value, double low, double high) {
   if (value >= low && value <= high) return std::nullopt;
@@ -75,6 +79,18 @@ std::optional<Reject> check_effects(const Effects& effects) {
                     .reason =
                         "a rough disk that gravity holds on a wall would roll, which has no "
                         "treatment yet"};
+    }
+  }
+  if (const auto& thermostat = effects.thermostat) {
+    if (!(thermostat->temperature >= 0 && thermostat->temperature <= kTemperatureMax)) {
+      return Reject{.code = Code::InvalidArgument,
+                    .field = "thermostat.temperature",
+                    .reason = "must be in [0, 1e25] J"};
+    }
+    if (!(thermostat->rate >= 0 && thermostat->rate <= kKickRateMax)) {
+      return Reject{.code = Code::InvalidArgument,
+                    .field = "thermostat.rate",
+                    .reason = "must be in [0, 1e9] per second"};
     }
   }
   return std::nullopt;

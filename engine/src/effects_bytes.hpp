@@ -34,11 +34,16 @@ void for_each_effect(AnyEffects& effects, const Visit& visit) {
   visit(1, effects.rough, &Rough::tangential_restitution, &Rough::friction);
   visit(2, effects.gravity, &Gravity::acceleration);
   visit(3, effects.floor_friction, &FloorFriction::deceleration);
+  visit(6, effects.thermostat, &Thermostat::temperature, &Thermostat::rate, &Thermostat::seed);
 }
 
 template <class Sink>
 void write_number(Sink& sink, double number) {
   sink.word(std::bit_cast<std::uint64_t>(number));
+}
+template <class Sink>
+void write_number(Sink& sink, std::uint64_t number) {
+  sink.word(number);
 }
 template <class Sink>
 void write_number(Sink& sink, const Vector2& v) {
@@ -48,13 +53,14 @@ void write_number(Sink& sink, const Vector2& v) {
 inline void read_number(ByteSource& source, double& number) {
   number = std::bit_cast<double>(source.word());
 }
+inline void read_number(ByteSource& source, std::uint64_t& number) { number = source.word(); }
 inline void read_number(ByteSource& source, Vector2& v) {
   read_number(source, v.x());
   read_number(source, v.y());
 }
 
 inline constexpr int kFirstEffectBit = 8;
-inline constexpr std::uint64_t kEffectBits = 0b1111;
+inline constexpr std::uint64_t kEffectBits = 0b1001111;
 
 }  // namespace detail
 

@@ -13,7 +13,8 @@
 // Preconditions: round to nearest; as the library's functions for NaN, infinities and x <= -1.
 #pragma once
 
-#include "stoss/engine/double_word.hpp"
+#include <stoss/engine/double_word.hpp>
+#include <stoss/engine/instant.hpp>
 
 #include <array>
 #include <bit>
@@ -25,18 +26,6 @@
 namespace stoss::engine {
 
 namespace detail {
-
-/// 2^k for |k| < 2^12, by exact products.
-template <class S>
-[[nodiscard]] constexpr S power_of_two(int k) noexcept {
-  S power(1);
-  S base = k < 0 ? S(0.5) : S(2);
-  for (int rest = k < 0 ? -k : k; rest > 0; rest /= 2) {
-    if (rest % 2 != 0) power = S(power * base);
-    base = S(base * base);
-  }
-  return power;
-}
 
 /// x 2^k in two products, for the power itself may overflow.
 template <class S>

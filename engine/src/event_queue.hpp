@@ -25,6 +25,7 @@ enum class EventKind : std::uint8_t {
   DiskWall = 2,
   DiskWallEnd = 3,
   LawChange = 4,  ///< of one body by itself: its stop, or the end of its slide
+  Kick = 6,       ///< of one body by the thermostat
 };
 
 template <class S>

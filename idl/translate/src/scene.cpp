@@ -53,7 +53,7 @@ engine::WallSpec spec_of(const Wall& wall) {
           .velocity = vector_of(wall.velocity())};
 }
 
-engine::Effects effects_of(const Effects& asked) {
+engine::Effects effects_of(const Effects& asked, std::uint64_t seed) {
   engine::Effects effects;
   if (asked.has_gravity()) {
     effects.gravity = engine::Gravity{vector_of(asked.gravity().acceleration())};
@@ -74,6 +74,11 @@ engine::Effects effects_of(const Effects& asked) {
     effects.rough = engine::Rough{.tangential_restitution = asked.rough().tangential_restitution(),
                                   .friction = asked.rough().friction()};
   }
+  if (asked.has_thermostat()) {
+    effects.thermostat = engine::Thermostat{.temperature = asked.thermostat().temperature(),
+                                            .rate = asked.thermostat().rate(),
+                                            .seed = seed};
+  }
   return effects;
 }
 
@@ -81,8 +86,8 @@ engine::Effects effects_of(const Effects& asked) {
 
 std::span<const std::string_view> engine_effects() {
   // Every effect of the scene format that has an exact treatment; each is one file of the engine.
-  static constexpr std::array<std::string_view, 4> kNames = {
-      "gravity", "floor_friction", "restitution", "rough"};
+  static constexpr std::array<std::string_view, 5> kNames = {
+      "gravity", "floor_friction", "restitution", "rough", "thermostat"};
   return kNames;
 }
 
@@ -103,7 +108,7 @@ engine::Outcome<SceneBodies> bodies_of(const Scene& scene) {
   if (auto reject = unsupported(scene)) return *std::move(reject);
   SceneBodies bodies;
   bodies.start = {scene.start().seconds(), scene.start().fraction()};
-  bodies.effects = effects_of(scene.effects());
+  bodies.effects = effects_of(scene.effects(), scene.seed());
   if (auto reject = engine::check_effects(bodies.effects)) {
     reject->field = "effects." + reject->field;
     return *std::move(reject);

@@ -7,6 +7,7 @@
 #include <stoss/engine/outcome.hpp>
 #include <stoss/engine/types.hpp>
 
+#include <cstdint>
 #include <optional>
 
 namespace stoss::engine {
@@ -51,12 +52,24 @@ struct Rough {
   friend bool operator==(const Rough&, const Rough&) = default;
 };
 
+/// Kicks that hold a temperature, after Andersen, J. Chem. Phys. 72 (1980) 2384: at the points of a
+/// Poisson process a dynamic disk gets a velocity of the Maxwell distribution, and a rough one a
+/// spin. What is drawn is a function of (seed, id of the body, its kicks so far).
+struct Thermostat {
+  double temperature = 0;  ///< J: kT, the mean kinetic energy of the two directions together
+  double rate = 0;         ///< kicks a second of each disk, >= 0
+  std::uint64_t seed = 0;
+
+  friend bool operator==(const Thermostat&, const Thermostat&) = default;
+};
+
 /// Present = on.
 struct Effects {
   std::optional<Gravity> gravity;
   std::optional<FloorFriction> floor_friction;
   std::optional<Restitution> restitution;
   std::optional<Rough> rough;
+  std::optional<Thermostat> thermostat;
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -94,11 +94,14 @@ namespace detail {
 
 /// 2^n, exactly, for an S whose exponent range holds it.
 template <class S>
-constexpr S power_of_two(int n) {
-  S result(1);
-  const S factor = n < 0 ? S(0.5) : S(2);
-  for (int i = n < 0 ? -n : n; i > 0; --i) result *= factor;
-  return result;
+[[nodiscard]] constexpr S power_of_two(int n) noexcept {
+  S power(1);
+  S base = n < 0 ? S(0.5) : S(2);
+  for (int rest = n < 0 ? -n : n; rest > 0; rest /= 2) {
+    if (rest % 2 != 0) power = S(power * base);
+    if (rest > 1) base = S(base * base);
+  }
+  return power;
 }
 
 template <class S>

@@ -52,6 +52,7 @@ struct AdvanceReport {
 struct Counters {
   std::uint64_t collisions = 0;   ///< since the world began
   std::uint64_t regularised = 0;  ///< contacts that a collapse guard changed
+  std::uint64_t kicks = 0;        ///< of the thermostat, since it came on
   std::uint64_t renewals = 0;     ///< broad-phase events of this object; not part of its state
 };
 
