@@ -34,6 +34,14 @@ Command Command::apply_impulse(std::vector<engine::VectorFor> impulses) {
   return command;
 }
 
+Command Command::set_effects(std::vector<std::string> off,
+                             std::vector<engine::EffectSetting> settings) {
+  Command command(idl::Op::kSetEffects);
+  command.spec_.effects_off = std::move(off);
+  command.spec_.settings = std::move(settings);
+  return command;
+}
+
 Command Command::pause() { return Command(idl::Op::kPause); }
 Command Command::resume() { return Command(idl::Op::kResume); }
 

@@ -31,18 +31,27 @@ EncodedCommand::EncodedCommand(const translate::CommandSpec& spec,
     x_.push_back(vector.value.x());
     y_.push_back(vector.value.y());
   }
-  idl::lend(sample_.ids, ids_);
-  idl::lend(sample_.x, x_);
-  idl::lend(sample_.y, y_);
   disks_.lend(sample_.disks);
   for (const engine::WallSpec& wall : spec.walls) walls_.append(wall);
   walls_.lend(sample_.walls, 0, walls_.size());
-  for (const translate::NamedPart& name : spec.names) {
+  const auto name = [this](std::uint64_t of, const std::string& text) {
     idl::wire::Name& to = names_.emplace_back();
-    to.of = name.of;
-    idl::assign(to.text, name.text);
+    to.of = of;
+    idl::assign(to.text, text);
+  };
+  for (const translate::NamedPart& part : spec.names) name(part.of, part.text);
+  for (const std::string& effect : spec.effects_off) {
+    name(0, effect);
+    x_.push_back(0);
+  }
+  for (const engine::EffectSetting& setting : spec.settings) {
+    name(1, setting.name);
+    x_.push_back(setting.value);
   }
   idl::lend(sample_.names, names_);
+  idl::lend(sample_.ids, ids_);
+  idl::lend(sample_.x, x_);
+  idl::lend(sample_.y, y_);
 }
 
 std::optional<Reject> too_large(const translate::CommandSpec& spec) {
@@ -56,9 +65,18 @@ std::optional<Reject> too_large(const translate::CommandSpec& spec) {
   if (spec.walls.size() > kCommandBodiesMax) return refuse("walls", limit);
   if (spec.disks.size() + spec.walls.size() > kCommandBodiesMax) return refuse("walls", limit);
   if (spec.names.size() > kCommandBodiesMax) return refuse("names", limit);
+  if (spec.effects_off.size() + spec.settings.size() > kCommandBodiesMax) {
+    return refuse("names", limit);
+  }
   const std::string length =
       "is longer than " + std::to_string(stoss_v1_MAX_NAME_LENGTH) + " bytes";
   if (spec.label.size() > stoss_v1_MAX_NAME_LENGTH) return refuse("label", length);
+  for (const std::string& name : spec.effects_off) {
+    if (name.size() > stoss_v1_MAX_NAME_LENGTH) return refuse("names.text", length);
+  }
+  for (const engine::EffectSetting& setting : spec.settings) {
+    if (setting.name.size() > stoss_v1_MAX_NAME_LENGTH) return refuse("names.text", length);
+  }
   for (std::size_t i = 0; i < spec.names.size(); ++i) {
     if (spec.names[i].text.size() <= stoss_v1_MAX_NAME_LENGTH) continue;
     Reject reject = refuse("names.text", length);

@@ -85,6 +85,7 @@ class BasicWorld final : public WorldCore {
 
   std::vector<std::byte> serialise() const override;
   Outcome<Done> restore(std::span<const std::byte> bytes) override;
+  Outcome<std::unique_ptr<WorldCore>> with_effects(const Effects& wanted) const override;
   std::uint64_t state_hash() const override;
 
  private:
@@ -203,7 +204,7 @@ class BasicWorld final : public WorldCore {
       const Vector2& n1, const Vector2& n2, double w0, double w1, double w2) const;
   DoubleWord<S> twice_spin_energy(const Body<S, Laws>& body) const;
   template <class Sink>
-  void write_body_part(Sink& sink, Slot slot) const;
+  void write_body_part(Sink& sink, Slot slot, const Effects& kind) const;
   void read_body_part(ByteSource& source, Slot slot);
 
   // basic_world_rest.hpp
@@ -229,9 +230,7 @@ class BasicWorld final : public WorldCore {
   std::optional<Event<S>> kick_event(Slot slot) const;
   void kick(Slot slot, const Time<S>& instant);
   template <class Sink>
-  void write_kick_count(Sink& sink) const;
-  template <class Sink>
-  void write_kicks(Sink& sink, Slot slot) const;
+  void write_kicks(Sink& sink, Slot slot, const Thermostat& thermostat) const;
   void read_kicks(ByteSource& source, Slot slot);
   bool has_sound_kicks(Slot slot) const;
 
@@ -257,7 +256,7 @@ class BasicWorld final : public WorldCore {
   void predict_around(Slot wall);
   void lay_bare(Slot wall);
   bool same_vertex(const WallEnd& a, const WallEnd& b) const;
-  void note_change(Slot slot, ChangeKind kind);
+  void note_change(Slot slot, ChangeKind kind) { changes_.note(at(slot).id, kind); }
 
   // basic_world_queries.hpp
   Slot slot_of(Id id) const { return slots_.at(id); }
@@ -273,9 +272,14 @@ class BasicWorld final : public WorldCore {
   Aabb swept_box(Slot slot) const;
   void examine(Slot a, Slot b, Census& census) const;
 
+  // basic_world_switch.hpp
+  bool law_differs(Slot slot, const Effects& wanted) const;
+  Kicks kicks_under(Slot slot, const Thermostat& wanted) const;
+
   // basic_world_bytes.hpp
+  std::vector<std::byte> bytes_for(const Effects& kind) const;
   template <class Sink>
-  void write_body(Sink& sink, Slot slot) const;
+  void write_body(Sink& sink, Slot slot, const Effects& kind) const;
   void note_digest_stale(Slot slot);
   void read_body(ByteSource& source, Id id, BodyType type);
   bool is_sound(Slot slot) const;
@@ -312,11 +316,6 @@ class BasicWorld final : public WorldCore {
   };
   mutable Digests digests_;
 
-  // Changes since the last drain; nothing is kept until somebody drains for the first time.
-  bool tracking_ = false;
-  std::vector<Id> changed_;
-  std::unordered_map<Id, ChangeKind> change_of_;
-
   mutable std::vector<Slot> ordered_;
   mutable bool ordered_valid_ = true;
 };
@@ -339,4 +338,5 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
 #include "basic_world_laws.hpp"
 #include "basic_world_predict.hpp"
 #include "basic_world_rest.hpp"
+#include "basic_world_switch.hpp"
 #include "basic_world_thermostat.hpp"

@@ -21,7 +21,7 @@ inline constexpr std::uint64_t kBytesFormat = 1;
 
 template <class S, class Laws>
 template <class Sink>
-void BasicWorld<S, Laws>::write_body(Sink& sink, Slot slot) const {
+void BasicWorld<S, Laws>::write_body(Sink& sink, Slot slot, const Effects& kind) const {
   const Body<S, Laws>& body = at(slot);
   sink.word(body.id);
   sink.word(static_cast<std::uint64_t>(body.type));
@@ -34,20 +34,26 @@ void BasicWorld<S, Laws>::write_body(Sink& sink, Slot slot) const {
   }
   write_scalar(sink, body.radius);
   write_scalar(sink, body.mass);
-  write_body_part(sink, slot);
+  write_body_part(sink, slot, kind);
 }
 
 template <class S, class Laws>
 std::vector<std::byte> BasicWorld<S, Laws>::serialise() const {
+  return bytes_for(effects());
+}
+
+/// As a world with these effects would write the same state.
+template <class S, class Laws>
+std::vector<std::byte> BasicWorld<S, Laws>::bytes_for(const Effects& kind) const {
   ByteSink sink;
   sink.word(kBytesMagic);
   sink.word(kBytesFormat);
-  write_identity(sink, {arithmetic_, effects()});
+  write_identity(sink, {arithmetic_, kind});
   write_time(sink, now_);
   sink.word(crowded_instant_ == now_ ? crowd_ : 0);
   sink.word(counters_.collisions);
   sink.word(counters_.regularised);
-  write_kick_count(sink);
+  if (kind.thermostat) sink.word(counters_.kicks);
   sink.word(next_id_);
   sink.word(ledger_.runs().size());
   for (const auto& [first, last] : ledger_.runs()) {
@@ -55,7 +61,7 @@ std::vector<std::byte> BasicWorld<S, Laws>::serialise() const {
     sink.word(last);
   }
   sink.word(slots_.size());
-  for (const Slot slot : ordered_slots()) write_body(sink, slot);
+  for (const Slot slot : ordered_slots()) write_body(sink, slot, kind);
   return sink.take();
 }
 
@@ -73,11 +79,12 @@ void BasicWorld<S, Laws>::note_digest_stale(Slot slot) {
 // A sum over bodies, so that it does not depend on an order and follows changes body by body.
 template <class S, class Laws>
 std::uint64_t BasicWorld<S, Laws>::state_hash() const {
+  const Effects kind = effects();
   DigestSink header;
-  write_identity(header, {arithmetic_, effects()});
+  write_identity(header, {arithmetic_, kind});
   header.word(counters_.collisions);
   header.word(counters_.regularised);
-  write_kick_count(header);
+  if (kind.thermostat) header.word(counters_.kicks);
   header.word(next_id_);
   for (const auto& [first, last] : ledger_.runs()) {
     header.word(first);
@@ -85,7 +92,7 @@ std::uint64_t BasicWorld<S, Laws>::state_hash() const {
   }
   for (const Slot slot : digests_.stale) {
     DigestSink digest;
-    if (at(slot).id != kNoId) write_body(digest, slot);
+    if (at(slot).id != kNoId) write_body(digest, slot, kind);
     const std::uint64_t now = at(slot).id != kNoId ? digest.digest() : 0;
     digests_.sum += now - digests_.of_slot[index(slot)];
     digests_.of_slot[index(slot)] = now;

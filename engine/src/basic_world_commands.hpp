@@ -634,21 +634,4 @@ void BasicWorld<S, Laws>::nudge(std::uint64_t seed) {
   for (const Slot slot : ordered_slots()) predict(slot, /*changed=*/true);
 }
 
-// A body that comes and goes between two drains leaves no trace.
-template <class S, class Laws>
-void BasicWorld<S, Laws>::note_change(Slot slot, ChangeKind kind) {
-  if (!tracking_) return;
-  const Id id = at(slot).id;
-  const auto [entry, is_new] = change_of_.try_emplace(id, kind);
-  if (is_new) {
-    changed_.push_back(id);
-  } else if (kind == ChangeKind::Removed) {
-    entry->second = entry->second == ChangeKind::Spawned ? ChangeKind::Spawned : kind;
-    if (entry->second == ChangeKind::Spawned) {
-      change_of_.erase(entry);
-      std::erase(changed_, id);
-    }
-  }
-}
-
 }  // namespace stoss::engine

@@ -283,24 +283,34 @@ DoubleWord<S> BasicWorld<S, Laws>::twice_spin_energy(const Body<S, Laws>& body) 
   }
 }
 
+/// What a world of that kind holds of a disk besides its motion, and this one may not.
 template <class S, class Laws>
 template <class Sink>
-void BasicWorld<S, Laws>::write_body_part(Sink& sink, Slot slot) const {
-  if constexpr (Laws::kPlain) {
-    const Rotation rotation = rotation_of(slot);
-    sink.word(std::bit_cast<std::uint64_t>(rotation.angle));
+void BasicWorld<S, Laws>::write_body_part(Sink& sink, Slot slot, const Effects& kind) const {
+  const LawsKind laws = laws_for(kind);
+  const Rotation rotation = rotation_of(slot);
+  sink.word(std::bit_cast<std::uint64_t>(rotation.angle));
+  if (laws == LawsKind::Plain) {
     sink.word(std::bit_cast<std::uint64_t>(rotation.spin));
+    return;
+  }
+  if constexpr (Laws::kPlain) {
+    write_scalar(sink, detail::stored<S>(rotation.spin));
+    write_time(sink, ContactLaws::BodyPart<S>{}.last_contact);
   } else {
-    sink.word(std::bit_cast<std::uint64_t>(at(slot).angle));
     write_scalar(sink, at(slot).spin);
     write_time(sink, at(slot).last_contact);
   }
-  if constexpr (Laws::kCurved) {
-    sink.word(at(slot).support);
-    sink.word(at(slot).second_support);
-    sink.word(at(slot).slid_off);
+  if (laws == LawsKind::Accelerated) {
+    if constexpr (Laws::kCurved) {
+      sink.word(at(slot).support);
+      sink.word(at(slot).second_support);
+      sink.word(at(slot).slid_off);
+    } else {
+      for (int i = 0; i < 3; ++i) sink.word(kNoId);
+    }
   }
-  write_kicks(sink, slot);
+  if (kind.thermostat) write_kicks(sink, slot, *kind.thermostat);
 }
 
 template <class S, class Laws>

@@ -309,18 +309,7 @@ std::vector<Id> BasicWorld<S, Laws>::ids() const {
 
 template <class S, class Laws>
 std::vector<Change> BasicWorld<S, Laws>::drain_changes() {
-  std::vector<Change> changes;
-  if (!tracking_) {
-    tracking_ = true;
-    for (const Id id : ids()) changes.push_back({id, ChangeKind::Spawned});
-    return changes;
-  }
-  std::sort(changed_.begin(), changed_.end());
-  changes.reserve(changed_.size());
-  for (const Id id : changed_) changes.push_back({id, change_of_.at(id)});
-  changed_.clear();
-  change_of_.clear();
-  return changes;
+  return changes_.drain([this] { return ids(); });
 }
 
 }  // namespace stoss::engine

@@ -70,21 +70,10 @@ void BasicWorld<S, Laws>::kick(Slot slot, const Time<S>& instant) {
 
 template <class S, class Laws>
 template <class Sink>
-void BasicWorld<S, Laws>::write_kick_count([[maybe_unused]] Sink& sink) const {
-  if constexpr (!Laws::kPlain) {
-    if (laws_.as_asked.thermostat) sink.word(counters_.kicks);
-  }
-}
-
-template <class S, class Laws>
-template <class Sink>
-void BasicWorld<S, Laws>::write_kicks([[maybe_unused]] Sink& sink,
-                                      [[maybe_unused]] Slot slot) const {
-  if constexpr (!Laws::kPlain) {
-    if (!laws_.as_asked.thermostat) return;
-    write_time(sink, kicks_[index(slot)].next);
-    sink.word(kicks_[index(slot)].count);
-  }
+void BasicWorld<S, Laws>::write_kicks(Sink& sink, Slot slot, const Thermostat& thermostat) const {
+  const Kicks kicks = kicks_under(slot, thermostat);
+  write_time(sink, kicks.next);
+  sink.word(kicks.count);
 }
 
 template <class S, class Laws>

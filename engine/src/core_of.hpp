@@ -15,7 +15,7 @@ std::unique_ptr<WorldCore> make_plain_core(const WorldOptions& options) {
 
 template <class S>
 std::unique_ptr<WorldCore> make_effects_core(const WorldOptions& options) {
-  if (options.effects.gravity || options.effects.floor_friction) {
+  if (laws_for(options.effects) == LawsKind::Accelerated) {
     return std::make_unique<BasicWorld<S, AcceleratedLaws>>(options);
   }
   return std::make_unique<BasicWorld<S, ContactLaws>>(options);

@@ -20,6 +20,16 @@
 
 namespace stoss::engine {
 
+/// Named after the laws below.
+enum class LawsKind { Plain, Contact, Accelerated };
+
+/// The least that has all these effects.
+inline LawsKind laws_for(const Effects& effects) {
+  if (effects == Effects{}) return LawsKind::Plain;
+  if (effects.gravity || effects.floor_friction) return LawsKind::Accelerated;
+  return LawsKind::Contact;
+}
+
 /// Contacts of bodies in uniform motion; what they are asked to do "within" is for ever.
 struct UniformMotion {
   static constexpr bool kCurved = false;

@@ -45,6 +45,14 @@ Outcome<Done> World::set_velocity(std::span<const VectorFor> velocities) {
 Outcome<Done> World::apply_impulse(std::span<const VectorFor> impulses) {
   return core_->apply_impulse(impulses);
 }
+Outcome<Done> World::set_effects(const Effects& effects) {
+  if (auto reject = check_effects(effects)) return *std::move(reject);
+  if (effects == core_->effects()) return Done{};
+  auto switched = core_->with_effects(effects);
+  if (!switched) return switched.reject();
+  core_ = std::move(switched).value();
+  return Done{};
+}
 void World::nudge(std::uint64_t seed) { core_->nudge(seed); }
 Outcome<AdvanceReport> World::advance_to(const Instant& until,
                                          CollisionSink* sink,

@@ -4,6 +4,8 @@
 // What stands behind a World: one virtual face over the arithmetics, called once a command or tick
 // and never inside the event loop. See world.hpp for what each call promises.
 
+#include "change_log.hpp"
+
 #include <stoss/engine/world.hpp>
 
 #include <functional>
@@ -57,6 +59,13 @@ class WorldCore {
   virtual std::vector<std::byte> serialise() const = 0;
   virtual Outcome<Done> restore(std::span<const std::byte> bytes) = 0;
   virtual std::uint64_t state_hash() const = 0;
+
+  /// This world from now on with other effects, which check_effects() accepts.
+  virtual Outcome<std::unique_ptr<WorldCore>> with_effects(const Effects& wanted) const = 0;
+  void take_changes_of(const WorldCore& other) { changes_ = other.changes_; }
+
+ protected:
+  ChangeLog changes_;
 };
 
 /// The core of one arithmetic: a plain one, or one for the effects asked for. Each is a translation

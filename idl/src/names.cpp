@@ -18,6 +18,8 @@ std::string_view name_of(Op op) noexcept {
       return "SET_VELOCITY";
     case Op::kApplyImpulse:
       return "APPLY_IMPULSE";
+    case Op::kSetEffects:
+      return "SET_EFFECTS";
     case Op::kPause:
       return "PAUSE";
     case Op::kResume:

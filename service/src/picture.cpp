@@ -38,6 +38,7 @@ void Picture::begin(const EpochRecord& record) {
   index_.reserve(record.bodies.size());
   for (const BodyChange& body : record.bodies) put(body);
   name(record.names);
+  effects_ = record.effects;
   moment_ = record.moment;
   state_hash_ = record.state_hash;
   ++scene_version_;
@@ -53,7 +54,11 @@ void Picture::apply(const TickRecord& record) {
   }
   name(record.names);
   moment_ = record.moment;
-  if (!record.changes.empty()) state_hash_ = record.state_hash;
+  if (record.effects) {
+    effects_ = *record.effects;
+    ++scene_version_;
+  }
+  if (!record.changes.empty() || record.effects) state_hash_ = record.state_hash;
 }
 
 void Picture::put(const BodyChange& change) {

@@ -28,7 +28,9 @@ class Picture {
   [[nodiscard]] std::uint64_t state_hash() const { return state_hash_; }
   [[nodiscard]] engine::Arithmetic arithmetic() const { return arithmetic_; }
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
-  /// Raised whenever a body comes or goes, or a wall changes its way.
+  /// The names of those that are on.
+  [[nodiscard]] const std::vector<std::string>& effects() const { return effects_; }
+  /// Raised whenever a body comes or goes, a wall changes its way, or an effect is switched.
   [[nodiscard]] std::uint64_t scene_version() const { return scene_version_; }
 
   struct Body {
@@ -59,6 +61,7 @@ class Picture {
   std::vector<Body> bodies_;
   std::unordered_map<engine::Id, std::size_t> index_;
   std::unordered_map<engine::Id, std::string> names_;
+  std::vector<std::string> effects_;
 };
 
 }  // namespace stoss::service

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "questions.hpp"
 
+#include <stoss/engine/features.hpp>
+#include <stoss/idl/json_lines.hpp>
 #include <stoss/translate/scene.hpp>
 
 #include <algorithm>
@@ -142,7 +144,7 @@ Outcome<Rows> answer(const engine::World& world, const translate::QuerySpec& que
                 .reason = "operation " + std::to_string(query.op) + " is not in this version"};
 }
 
-std::vector<std::string> features() {
+std::vector<std::string> features(const engine::Effects& on) {
   std::vector<std::string> words = {
       "SPAWNING",
       "SPAWNING_ENTITIES",
@@ -160,6 +162,7 @@ std::vector<std::string> features() {
                            idl::Op::kRemove,
                            idl::Op::kSetVelocity,
                            idl::Op::kApplyImpulse,
+                           idl::Op::kSetEffects,
                            idl::Op::kPause,
                            idl::Op::kResume,
                            idl::Op::kStep,
@@ -188,6 +191,14 @@ std::vector<std::string> features() {
   }
   for (const std::string_view effect : translate::engine_effects()) {
     words.push_back("effect:" + std::string(effect));
+  }
+  for (const engine::Refusal& refusal : engine::refused_combinations()) {
+    words.push_back("refused:" + std::string(refusal.effect) + "+" + std::string(refusal.other));
+  }
+  for (const engine::EffectSetting& setting : engine::settings_of(on)) {
+    std::string word = "setting:" + setting.name + "=";
+    idl::append_number(word, setting.value);
+    words.push_back(std::move(word));
   }
   return words;
 }

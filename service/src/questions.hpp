@@ -21,7 +21,7 @@ inline constexpr std::size_t kNearestMax = 4096;
                                            const translate::QuerySpec& query);
 
 /// What this daemon can do: words of ROS 2's simulation_interfaces where there is one, then the
-/// operations, arithmetics and effects.
-[[nodiscard]] std::vector<std::string> features();
+/// operations, arithmetics, effects and which do not go together; and the numbers of those on.
+[[nodiscard]] std::vector<std::string> features(const engine::Effects& on);
 
 }  // namespace stoss::service

@@ -58,7 +58,8 @@ struct TickRecord {
   std::vector<BodyChange> changes;
   std::vector<engine::Collision> collisions;
   std::vector<NamedBody> names;
-  std::uint64_t state_hash = 0;  ///< 0 when nobody asked for it
+  std::optional<std::vector<std::string>> effects;  ///< those that are on, if that has changed
+  std::uint64_t state_hash = 0;                     ///< 0 when nobody asked for it
 };
 
 /// A world as it begins: at the start, and after a reset.
@@ -66,6 +67,7 @@ struct EpochRecord {
   Moment moment;
   std::vector<BodyChange> bodies;
   std::vector<NamedBody> names;
+  std::vector<std::string> effects;  ///< those that are on
   std::uint64_t state_hash = 0;
 };
 

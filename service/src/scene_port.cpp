@@ -57,11 +57,14 @@ ScenePort::Columns ScenePort::columns_of(const Picture& picture) {
     name.of = id;
     idl::assign(name.text, text);
   }
+  for (const std::string& effect : picture.effects()) {
+    idl::assign(columns.effects.emplace_back().text, effect);
+  }
   return columns;
 }
 
 void ScenePort::publish(const Picture& picture) {
-  const Columns columns = columns_of(picture);
+  Columns columns = columns_of(picture);
   ++version_;
   const std::size_t needed = std::max({std::size_t{1},
                                        chunks_for(columns.disk_id.size(), stoss_v1_MAX_SCENE_DISKS),
@@ -80,7 +83,7 @@ void ScenePort::publish(const Picture& picture) {
 }
 
 void ScenePort::write_chunk(const Picture& picture,
-                            const Columns& columns,
+                            Columns& columns,
                             std::uint32_t chunk,
                             std::uint32_t chunks) {
   wire::SceneChunk sample{};
@@ -91,6 +94,10 @@ void ScenePort::write_chunk(const Picture& picture,
   idl::assign(sample.world, world_);
   idl::assign(sample.scene_name, scene_name_);
   sample.at = translate::to_wire(picture.moment().at);
+  static_assert(sizeof(idl::Element<decltype(sample.effects)>) == sizeof(Word));
+  sample.effects._buffer = columns.effects.empty() ? nullptr : &columns.effects.front().text;
+  sample.effects._length = static_cast<std::uint32_t>(columns.effects.size());
+  sample.effects._maximum = sample.effects._length;
   const auto disks = [&](const auto& column) {
     return slice(column, chunk, stoss_v1_MAX_SCENE_DISKS);
   };

@@ -30,6 +30,10 @@ class ScenePort {
   [[nodiscard]] std::uint64_t failures() const { return writer_.failures(); }
 
  private:
+  struct Word {
+    stoss_v1_ShortText text{};
+  };
+
   /// The rows of all chunks; a chunk is a slice of each.
   struct Columns {
     std::vector<std::uint64_t> disk_id;
@@ -38,12 +42,13 @@ class ScenePort {
     std::vector<std::uint64_t> wall_id;
     std::vector<double> start_x, start_y, end_x, end_y, vx, vy;
     std::vector<wire::Name> names;
+    std::vector<Word> effects;  ///< in every chunk
   };
 
   void publish(const Picture& picture);
   static Columns columns_of(const Picture& picture);
   void write_chunk(const Picture& picture,
-                   const Columns& columns,
+                   Columns& columns,
                    std::uint32_t chunk,
                    std::uint32_t chunks);
 

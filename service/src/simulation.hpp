@@ -120,6 +120,7 @@ class Simulation final : private engine::CollisionSink {
   Made run_to(const translate::CommandSpec& spec);
   Made set_speed(const translate::CommandSpec& spec);
   Made reset();
+  Made set_effects(const translate::CommandSpec& spec);
   Made watch(const translate::CommandSpec& spec);
   void hand_over(std::vector<WatchRecord> news);
 
@@ -129,6 +130,7 @@ class Simulation final : private engine::CollisionSink {
   void forecast(QueryItem query, const engine::Instant& at);
   void refuse(QueryItem query, engine::Reject reject);
   void begin_epoch(std::vector<NamedBody> names);
+  [[nodiscard]] std::vector<std::string> effects_on() const;
   void publish(bool at_any_rate = false);
   void send_replies();
   void report_status(idl::WorldState state);
@@ -161,6 +163,7 @@ class Simulation final : private engine::CollisionSink {
   bool put_off_ = false;
   std::vector<engine::Collision> collisions_;
   std::vector<NamedBody> names_;
+  bool effects_changed_ = false;                                  ///< since the last record
   std::unordered_map<engine::Id, engine::MotionRecord> removed_;  ///< where and when they went
 
   std::optional<engine::Verifier> verifier_;

@@ -2,6 +2,7 @@
 // What each command does to the world, at its present.
 #include "simulation.hpp"
 
+#include <stoss/engine/features.hpp>
 #include <stoss/engine/motion.hpp>
 
 #include <algorithm>
@@ -62,6 +63,8 @@ Simulation::Made Simulation::execute(const translate::CommandSpec& spec) {
     case Op::kApplyImpulse:
       if (spec.vectors.empty()) return invalid("ids", "names no body");
       return change_bodies(spec.ids, [&] { return done(world_.apply_impulse(spec.vectors)); });
+    case Op::kSetEffects:
+      return set_effects(spec);
     case Op::kPause:
       run_.pause();
       return done();
@@ -204,6 +207,26 @@ Simulation::Made Simulation::reset() {
   begin_epoch(std::move(names));
   hand_over(std::move(news));
   started();
+  return done();
+}
+
+Simulation::Made Simulation::set_effects(const translate::CommandSpec& spec) {
+  if (spec.effects_off.empty() && spec.settings.empty()) {
+    return invalid("names", "names no effect");
+  }
+  const engine::Effects before = world_.effects();
+  auto wanted = engine::changed_effects(before, spec.effects_off, spec.settings);
+  if (!wanted) return wanted.reject();
+  engine::Effects effects = std::move(wanted).value();
+  const bool has_seed = std::any_of(spec.settings.begin(), spec.settings.end(), [](const auto& s) {
+    return s.name == "thermostat.seed";
+  });
+  if (effects.thermostat && !before.thermostat && !has_seed) {
+    effects.thermostat->seed = scene_.seed;
+  }
+  if (auto switched = world_.set_effects(effects); !switched) return switched.reject();
+  effects_changed_ = true;
+  if (verifier_) verifier_->begin(world_);  // which books it keeps depends on the effects
   return done();
 }
 

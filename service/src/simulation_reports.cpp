@@ -3,6 +3,8 @@
 #include "questions.hpp"
 #include "simulation.hpp"
 
+#include <stoss/engine/features.hpp>
+
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -108,7 +110,7 @@ void Simulation::answer_query(QueryItem query) {
   }
   AnswerItem item{query.spec.request, moment(), Reject{}, std::move(query.ticket)};
   if (ask == Ask::kFeatures) {
-    item.content = features();
+    item.content = features(world_.effects());
   } else if (auto rows = answer(world_, query.spec)) {
     item.content = std::move(rows).value();
   } else {
@@ -156,6 +158,8 @@ void Simulation::begin_epoch(std::vector<NamedBody> names) {
   EpochRecord record;
   record.moment = moment();
   record.names = std::move(names);
+  record.effects = effects_on();
+  effects_changed_ = false;
   record.bodies.reserve(world_.disk_count() + world_.wall_count());
   for (const engine::Id id : world_.ids()) {
     record.bodies.push_back(
@@ -172,6 +176,15 @@ void Simulation::begin_epoch(std::vector<NamedBody> names) {
   status_.order_dependent = 0;
   if (verifier_) verifier_->begin(world_);
   outbox_.push(std::move(record));
+}
+
+std::vector<std::string> Simulation::effects_on() const {
+  std::vector<std::string> names;
+  const engine::Effects effects = world_.effects();
+  for (const engine::EffectInfo& effect : engine::known_effects()) {
+    if (effect.is_on(effects)) names.emplace_back(effect.name);
+  }
+  return names;
 }
 
 void Simulation::publish(bool at_any_rate) {
@@ -194,10 +207,12 @@ void Simulation::publish(bool at_any_rate) {
     }
   }
   removed_.clear();
-  if (record.changes.empty() && collisions_.empty() && published_ == record.moment) return;
+  if (std::exchange(effects_changed_, false)) record.effects = effects_on();
+  const bool is_news = !record.changes.empty() || record.effects;
+  if (!is_news && collisions_.empty() && published_ == record.moment) return;
   record.collisions = std::exchange(collisions_, {});
   record.names = std::exchange(names_, {});
-  if (!record.changes.empty() && outbox_.hash_wanted.load(std::memory_order_relaxed)) {
+  if (is_news && outbox_.hash_wanted.load(std::memory_order_relaxed)) {
     record.state_hash = world_.state_hash();
   }
   published_ = record.moment;

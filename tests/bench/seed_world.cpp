@@ -9,10 +9,22 @@
 #include "basic_world.hpp"
 #include "bench/gas_run.hpp"
 
+#include <stdexcept>
+
 namespace stoss::engine {
 
-std::unique_ptr<WorldCore> make_core(const WorldOptions& options) {
+template <>
+std::unique_ptr<WorldCore> make_plain_core<double>(const WorldOptions& options) {
   return std::make_unique<BasicWorld<double, PlainLaws>>(options);
+}
+
+template <>
+std::unique_ptr<WorldCore> make_effects_core<double>(const WorldOptions&) {
+  throw std::logic_error("this program's worlds are plain");
+}
+
+std::unique_ptr<WorldCore> make_core(const WorldOptions& options) {
+  return make_core_in<double>(options);
 }
 
 bench::Advance make_gas_run(int columns, double area_fraction) {

@@ -4,6 +4,8 @@
 #include "cli/top_screen.hpp"
 #include "clients/run_program.hpp"
 
+#include <stoss/engine/features.hpp>
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -13,9 +15,10 @@ namespace stoss::tests {
 namespace {
 
 const std::vector<std::string> kVerbs = {
-    "worlds",  "status", "spawn",   "load",   "remove",     "set-velocity", "impulse",  "get",
-    "list",    "region", "nearest", "ray",    "pause",      "resume",       "reset",    "step",
-    "run-for", "run-to", "speed",   "states", "collisions", "top",          "simulate", "accuracy"};
+    "worlds", "status",   "spawn",    "load",     "remove", "set-velocity", "impulse",
+    "get",    "list",     "region",   "nearest",  "ray",    "pause",        "resume",
+    "reset",  "step",     "run-for",  "run-to",   "speed",  "states",       "collisions",
+    "top",    "simulate", "accuracy", "features", "effects"};
 
 TEST(CliUsage, HelpListsEveryVerb) {
   const Finished help = stoss({"--help"});
@@ -38,6 +41,22 @@ TEST(CliUsage, EveryVerbHasHelpWithAnExample) {
   }
 }
 
+TEST(CliUsage, FeaturesAreListedWithoutAWorld) {
+  const Finished text = stoss({"features"});
+  EXPECT_EQ(text.status, 0) << text.error;
+  const Finished object = stoss({"features", "--json"});
+  EXPECT_EQ(object.status, 0) << object.error;
+  for (const engine::EffectInfo& effect : engine::known_effects()) {
+    EXPECT_NE(text.out.find("\n" + std::string(effect.name)), std::string::npos) << effect.name;
+    EXPECT_NE(object.out.find("\"name\":\"" + std::string(effect.name) + '"'), std::string::npos);
+  }
+  for (const engine::Refusal& refusal : engine::refused_combinations()) {
+    EXPECT_NE(text.out.find(std::string(refusal.reason)), std::string::npos) << refusal.effect;
+    EXPECT_NE(object.out.find(std::string(refusal.reason)), std::string::npos) << refusal.effect;
+  }
+  EXPECT_EQ(object.out.find('\n'), object.out.size() - 1) << "one object on one line";
+}
+
 TEST(CliUsage, BadUsageIsExitStatusTwo) {
   for (const char* command : {"",
                               "fly",
@@ -56,6 +75,11 @@ TEST(CliUsage, BadUsageIsExitStatusTwo) {
                               "spawn disk --position 0,0 --radius x",
                               "spawn disk --position 0,0 --radius 1 --kind soft",
                               "spawn wall --start 0,0",
+                              "effects set",
+                              "effects set gravity",
+                              "effects set =1",
+                              "effects off",
+                              "effects on gravity",
                               "set-velocity 3 1",
                               "set-velocity x 1 2",
                               "set-velocity 3 1 2 4",

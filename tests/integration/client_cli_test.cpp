@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -134,6 +135,34 @@ TEST_F(ClientCli, ACommandTakesEffectAtTheInstantGiven) {
   EXPECT_EQ(reply["code"], "OK");
   EXPECT_EQ(reply["instant"]["seconds"], std::to_string(seconds + 2));
   EXPECT_EQ(reply["instant"]["fraction"], std::to_string(std::uint64_t{1} << 61U));
+}
+
+TEST_F(ClientCli, EffectsAreSwitchedOnALiveWorld) {
+  good("spawn disk --position 0,0 --radius 1 --velocity 1,0 --id 1");
+  EXPECT_EQ(good("effects"), "no effects are on\n");
+  good("speed max");
+  good("run-for 1");
+  good("effects set gravity.acceleration=0,-9.81 restitution.coefficient=0.9");
+  const json on = good_json("effects").at(0);
+  EXPECT_EQ(on["gravity.acceleration.y"], -9.81);
+  EXPECT_EQ(on["restitution.wall_coefficient"], 0.9) << "by default the same";
+  good("run-for 1");
+  EXPECT_EQ(good_json("get 1").at(0)["velocity"]["y"], -9.81);
+  EXPECT_EQ(good_json("get 1").at(0)["position"]["x"], 2);
+  good("effects off gravity --at 2.5");
+  good("run-to 4");
+  EXPECT_EQ(good_json("get 1").at(0)["velocity"]["y"], -9.81 * 1.5);
+  EXPECT_FALSE(good_json("effects").at(0).contains("gravity.acceleration.y"));
+  refused("effects set rough.friction=1", {"INVALID_ARGUMENT: ", "rough.tangential_restitution"});
+  refused("effects set restitution.coefficient=1.5", {"restitution.coefficient", "[0, 1]"});
+  refused("effects off gravity", {"INVALID_ARGUMENT: ", "gravity", "is not on"});
+  EXPECT_EQ(run("effects set gravity").status, 2);
+  EXPECT_EQ(run("effects set gravity.acceleration=0,down").status, 2);
+  const auto words = good_json("features --live").at(0).get<std::vector<std::string>>();
+  EXPECT_NE(std::find(words.begin(), words.end(), "setting:restitution.coefficient=0.9"),
+            words.end());
+  good("reset");
+  EXPECT_EQ(good("effects"), "no effects are on\n");
 }
 
 TEST_F(ClientCli, QuestionsFindWhatIsThere) {

@@ -170,6 +170,11 @@ TEST(ClientSession, FeedsTellOfTheSceneTheStatusAndWatchedBodies) {
   EXPECT_EQ(image->disks.size(), 2U);
   EXPECT_EQ(image->walls.size(), 1U);
   ASSERT_EQ(image->names.size(), 3U);
+  EXPECT_TRUE(image->effects.empty());
+  ASSERT_TRUE(session.command(Command::set_effects({}, {{"restitution.coefficient", 0.5}})).ok());
+  const std::optional<SceneImage> later = scenes.next(kPatience);
+  ASSERT_TRUE(later);
+  EXPECT_EQ(later->effects, std::vector<std::string>{"restitution"});
   StatusFeed statuses(session);
   const std::optional<Status> status = statuses.next(kPatience);
   ASSERT_TRUE(status);

@@ -35,6 +35,7 @@ struct Invocation {
 // Each adds a group of verbs.
 void add_world_verbs(CLI::App& app, Invocation& invocation);
 void add_body_verbs(CLI::App& app, Invocation& invocation);
+void add_effect_verbs(CLI::App& app, Invocation& invocation);
 void add_question_verbs(CLI::App& app, Invocation& invocation);
 void add_clock_verbs(CLI::App& app, Invocation& invocation);
 void add_stream_verbs(CLI::App& app, Invocation& invocation);

@@ -54,6 +54,7 @@ void describe_app(CLI::App& app, Invocation& invocation) {
       "`stoss VERB --help` explains a verb.");
   add_world_verbs(app, invocation);
   add_body_verbs(app, invocation);
+  add_effect_verbs(app, invocation);
   add_question_verbs(app, invocation);
   add_clock_verbs(app, invocation);
   add_stream_verbs(app, invocation);

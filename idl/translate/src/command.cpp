@@ -106,6 +106,25 @@ std::optional<Reject> read_names(const wire::Command& command, CommandSpec& spec
   return std::nullopt;
 }
 
+std::optional<Reject> read_settings(const wire::Command& command, CommandSpec& spec) {
+  const auto names = idl::view(command.names);
+  if (auto reject = check_lengths({{"x", command.x._length, false}}, names.size())) return reject;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::string name(idl::text(names[i].text));
+    if (names[i].of > 1) {
+      Reject reject = invalid("names.of", "must be 0 (off) or 1 (set)");
+      reject.index = i;
+      return reject;
+    }
+    if (names[i].of == 0) {
+      spec.effects_off.push_back(std::move(name));
+    } else {
+      spec.settings.push_back({std::move(name), command.x._buffer[i]});
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<Reject> read_targets(const wire::Command& command, CommandSpec& spec) {
   const auto ids = idl::view(command.ids);
   spec.ids.assign(ids.begin(), ids.end());
@@ -132,6 +151,8 @@ std::size_t CommandSpec::footprint() const {
                       disks.size() * sizeof(engine::DiskSpec) +
                       walls.size() * sizeof(engine::WallSpec);
   for (const NamedPart& name : names) bytes += sizeof(NamedPart) + name.text.size();
+  for (const std::string& name : effects_off) bytes += sizeof(std::string) + name.size();
+  for (const auto& setting : settings) bytes += sizeof(setting) + setting.name.size();
   return bytes;
 }
 
@@ -148,6 +169,10 @@ engine::Outcome<CommandSpec> command_of(const wire::Command& command) {
   if (command.zones.x._length != 0) {
     return Reject{
         .code = Code::Unimplemented, .field = "zones", .reason = "this version has no zones"};
+  }
+  if (spec.op == idl::wire_value(idl::Op::kSetEffects)) {
+    if (auto reject = read_settings(command, spec)) return *std::move(reject);
+    return spec;
   }
   if (auto reject = read_targets(command, spec)) return *std::move(reject);
   if (auto reject = read_disks(command.disks, spec)) return *std::move(reject);

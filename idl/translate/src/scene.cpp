@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <stoss/engine/features.hpp>
 #include <stoss/idl/scene_file.hpp>
 #include <stoss/translate/basics.hpp>
 #include <stoss/translate/scene.hpp>
 #include <stoss/wide/world.hpp>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace stoss::translate {
@@ -85,9 +85,11 @@ engine::Effects effects_of(const Effects& asked, std::uint64_t seed) {
 }  // namespace
 
 std::span<const std::string_view> engine_effects() {
-  // Every effect of the scene format that has an exact treatment; each is one file of the engine.
-  static constexpr std::array<std::string_view, 5> kNames = {
-      "gravity", "floor_friction", "restitution", "rough", "thermostat"};
+  static const std::vector<std::string_view> kNames = [] {
+    std::vector<std::string_view> names;
+    for (const engine::EffectInfo& effect : engine::known_effects()) names.push_back(effect.name);
+    return names;
+  }();
   return kNames;
 }
 
@@ -109,6 +111,7 @@ engine::Outcome<SceneBodies> bodies_of(const Scene& scene) {
   SceneBodies bodies;
   bodies.start = {scene.start().seconds(), scene.start().fraction()};
   bodies.effects = effects_of(scene.effects(), scene.seed());
+  bodies.seed = scene.seed();
   if (auto reject = engine::check_effects(bodies.effects)) {
     reject->field = "effects." + reject->field;
     return *std::move(reject);

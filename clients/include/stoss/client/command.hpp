@@ -28,6 +28,10 @@ class Command {
   static Command set_velocity(std::vector<engine::VectorFor> velocities);
   /// In kg m/s, for dynamic disks.
   static Command apply_impulse(std::vector<engine::VectorFor> impulses);
+  /// Switches effects off ("gravity"), then sets numbers ("gravity.acceleration.y"); a number of an
+  /// effect that is off switches it on.
+  static Command set_effects(std::vector<std::string> off,
+                             std::vector<engine::EffectSetting> settings);
   static Command pause();
   static Command resume();
   /// Runs so many ticks, then pauses.

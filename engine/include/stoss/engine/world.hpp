@@ -100,6 +100,12 @@ class World {
   /// FailedPrecondition for whatever is not a dynamic disk.
   Outcome<Done> apply_impulse(std::span<const VectorFor> impulses);
 
+  /// From now on the world has these effects, and no others. A physical event for each body whose
+  /// law of motion becomes another: its motion is based at now(), and one at rest is let go. Other
+  /// bodies' motions are not touched. Errors: those of check_effects(); FailedPrecondition if a
+  /// contact is due at this very instant.
+  Outcome<Done> set_effects(const Effects& effects);
+
   /// Moves every dynamic disk, and its velocity, by one unit in the last place of the world's
   /// arithmetic, with signs that `seed` picks: the smallest error that a run can start from.
   void nudge(std::uint64_t seed);

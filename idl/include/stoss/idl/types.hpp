@@ -51,6 +51,7 @@ enum class Op : std::uint16_t {
   kRemove = stoss_v1_OP_REMOVE,
   kSetVelocity = stoss_v1_OP_SET_VELOCITY,
   kApplyImpulse = stoss_v1_OP_APPLY_IMPULSE,
+  kSetEffects = stoss_v1_OP_SET_EFFECTS,
   kPause = stoss_v1_OP_PAUSE,
   kResume = stoss_v1_OP_RESUME,
   kStep = stoss_v1_OP_STEP,

@@ -2,6 +2,7 @@
 // A received Command in the engine's words, and the way back for clients.
 #pragma once
 
+#include <stoss/engine/features.hpp>
 #include <stoss/engine/outcome.hpp>
 #include <stoss/engine/types.hpp>
 #include <stoss/translate/basics.hpp>
@@ -34,6 +35,8 @@ struct CommandSpec {
   std::vector<engine::DiskSpec> disks;
   std::vector<engine::WallSpec> walls;
   std::vector<NamedPart> names;
+  std::vector<std::string> effects_off;         ///< OP_SET_EFFECTS: these first
+  std::vector<engine::EffectSetting> settings;  ///< OP_SET_EFFECTS: then these
 
   /// Roughly the memory that it holds, in bytes; what a queue's bound counts.
   [[nodiscard]] std::size_t footprint() const;

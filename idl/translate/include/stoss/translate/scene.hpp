@@ -6,6 +6,7 @@
 #include <stoss/engine/types.hpp>
 #include <stoss/engine/world.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,7 @@ namespace stoss::translate {
 struct SceneBodies {
   engine::Instant start;
   engine::Effects effects;
+  std::uint64_t seed = 0;  ///< for effects that are switched on later
   std::vector<engine::DiskSpec> disks;
   std::vector<std::string> disk_names;
   std::vector<engine::WallSpec> walls;
