@@ -135,6 +135,8 @@ class BasicWorld final : public WorldCore {
 
   // basic_world_predict.hpp
   bool interacts(Slot a, Slot b) const;
+  bool may_become_close(Slot a, Slot b) const;
+  bool is_far_from_line(Slot wall, const Aabb& box) const;
   bool holds_prediction(Slot holder, Slot other) const;
   template <class Visit>
   void for_each_neighbour(Slot slot, Visit&& visit) const;

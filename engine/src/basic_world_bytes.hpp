@@ -161,7 +161,7 @@ Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
     if (!fresh.has_sound_supports(slot)) return damaged("what a body rests on is damaged");
   }
   fresh.settle();
-  if (!fresh.queue_.empty() && fresh.queue_.event_of(fresh.queue_.top()).at < fresh.now_) {
+  if (!fresh.queue_.empty() && fresh.queue_.event_of(fresh.queue_.top(fresh.id_lookup())).at < fresh.now_) {
     return damaged("a contact lies before the present");
   }
   *this = std::move(fresh);

@@ -26,14 +26,15 @@ Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
                   .reason = "the instant is in the past: the world has moved on"};
   }
   AdvanceReport report;
+  const auto ids = id_lookup();
   const std::uint64_t collisions_before = counters_.collisions;
   const Time<S> end = std::max(now_, from_instant<Time<S>>(until));
-  while (!queue_.empty() && queue_.event_of(queue_.top()).at <= end) {
+  while (!queue_.empty() && queue_.event_of(queue_.top(ids)).at <= end) {
     if (report.events == max_events) {
       report.stop = Stop::EventBudget;
       break;
     }
-    const Slot slot = queue_.top();
+    const Slot slot = queue_.top(ids);
     const Time<S> instant = queue_.event_of(slot).at;
     now_ = std::max(now_, instant);
     if (!process(slot, sink)) {

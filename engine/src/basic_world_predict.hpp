@@ -24,6 +24,34 @@ bool BasicWorld<S, Laws>::interacts(Slot a, Slot b) const {
   return a != b && (at(a).is_dynamic() || at(b).is_dynamic());
 }
 
+// Of two bodies whose boxes overlap: can they meet before one of them leaves its box? Beside a
+// slanted wall, whose box is wide, disks are told apart by their distance from its line.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::may_become_close(Slot a, Slot b) const {
+  if (!interacts(a, b)) return false;
+  if (at(a).is_wall()) return !is_far_from_line(a, neighbours_.box_of(b));
+  if (at(b).is_wall()) return !is_far_from_line(b, neighbours_.box_of(a));
+  return true;
+}
+
+/// Does the box lie on one side of the wall's line, wherever the wall may go within its margin?
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_far_from_line(Slot wall, const Aabb& box) const {
+  const DoubleWord2<S>& edge = shape(wall).edge;
+  const auto ex = static_cast<double>(edge.x.hi);
+  const auto ey = static_cast<double>(edge.y.hi);
+  const auto& anchor = neighbours_.anchor(wall);
+  const double margin = neighbours_.margin(wall);
+  const double x = 0.5 * box.low_x + 0.5 * box.high_x - (anchor.x + anchor.x_low);
+  const double y = 0.5 * box.low_y + 0.5 * box.high_y - (anchor.y + anchor.y_low);
+  const double half_x = 0.5 * (box.high_x - box.low_x) + margin;
+  const double half_y = 0.5 * (box.high_y - box.low_y) + margin;
+  const double off = kScreenSlack<S> * (std::abs(x) + std::abs(y) + half_x + half_y) +
+                     4e-16 * (std::abs(anchor.x) + std::abs(anchor.y));
+  // Written so that a NaN from overflow means "near".
+  return std::abs(ex * y - ey * x) > std::abs(ex) * (half_y + off) + std::abs(ey) * (half_x + off);
+}
+
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::holds_prediction(Slot holder, Slot other) const {
   const Body<S, Laws>& h = at(holder);
@@ -39,8 +67,12 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
     for (Slot other = 0; index(other) < bodies_.size(); ++other) {
       if (at(other).id != kNoId && interacts(slot, other)) visit(other);
     }
-  } else {
+  } else if (at(slot).is_dynamic()) {
     for (const Slot other : neighbours_.of(slot)) visit(other);
+  } else {
+    neighbours_.query(neighbours_.box_of(slot), [&](Slot other) {
+      if (may_become_close(slot, other)) visit(other);
+    });
   }
 }
 
@@ -169,7 +201,7 @@ Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const
   if constexpr (Laws::kCurved) pull = pull_of(slot);
   if (here.vx == 0 && here.vy == 0 && pull == 0) return event;
   constexpr double kEarly = 1 - kScreenSlack<S>;
-  const Glance& anchor = neighbours_.anchor(slot);
+  const Neighbours::Anchor& anchor = neighbours_.anchor(slot);
   const double margin = neighbours_.margin(slot) * kEarly;
   const double moved_x = (here.x - anchor.x) + (here.x_low - anchor.x_low);
   const double moved_y = (here.y - anchor.y) + (here.y_low - anchor.y_low);
@@ -287,11 +319,15 @@ double BasicWorld<S, Laws>::smallest_margin(Slot slot) const {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
   if (all_pairs()) return;
+  const Role role = at(slot).is_wall()      ? Role::Wall
+                    : at(slot).is_dynamic() ? Role::DynamicDisk
+                                            : Role::FixedDisk;
   neighbours_.renew(slot,
+                    role,
                     tight_box(slot),
                     glance_of(slot),
                     std::max(margin, smallest_margin(slot)),
-                    [this, slot](Slot other) { return interacts(slot, other); });
+                    [this, slot](Slot other) { return may_become_close(slot, other); });
 }
 
 }  // namespace stoss::engine

@@ -3,16 +3,26 @@
 
 // The future events, one a body: the earliest that the body knows of.
 //
-// A 4-ary heap of body slots. Events are ordered by (instant, kind, lower id, higher id); instants
-// differ almost always, so ids are looked up on ties alone.
+// Events are ordered by (instant, kind, lower id, higher id); instants differ almost always, so ids
+// are looked up on ties alone. A calendar sorts them only as far as it must: a lap of buckets of
+// equal width, a heap for the bucket that is open, and a heap-less rest beyond the lap. A body at
+// rest for ever is in none of them.
 //
-// Invariants: 1. place_[slot] is where the slot stands in heap_, or kAbsent; 2. no event stands
-// above an earlier one.
+// Source: the calendar of Paul, J. Comput. Phys. 221 (2007) 615. Deviations: bucket numbers are
+// shifted instants, exact integers, so no order is ever decided by rounding; the open bucket is a
+// heap, so that a million events at one instant cost a logarithm each and not a scan; width and
+// number of buckets are taken from the events themselves at every lap.
+//
+// Invariants: 1. the heap holds every event that is due before the open bucket ends, a bucket every
+// other one that is due before the lap ends, the rest all others; 2. no event stands above an
+// earlier one in the heap; 3. a bit of occupied_ is set where its bucket holds something.
 
 #include <stoss/engine/instant.hpp>
 #include <stoss/engine/types.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -56,65 +66,249 @@ bool earlier(const Event<S>& a,
   return ids(slot_a, a) < ids(slot_b, b);
 }
 
+namespace detail {
+
+/// The 64.64 number that buckets are cut from; monotone in the order of instants.
+inline Int128 bucket_ticks(const Instant& t) { return ticks(t); }
+inline Int128 bucket_ticks(const WideInstant& t) { return ticks(t.coarse); }
+
+}  // namespace detail
+
 template <class S>
 class EventQueue {
  public:
-  bool empty() const { return heap_.empty(); }
-  /// REQUIRES: !empty()
-  std::int32_t top() const { return heap_.front(); }
-  const Event<S>& event_of(std::int32_t slot) const { return events_[index(slot)]; }
+  bool empty() const { return size_ == 0; }
+  std::size_t size() const { return size_; }
+  const Event<S>& event_of(std::int32_t slot) const { return lines_[index(slot)].event; }
+
+  /// The slot of the first event. REQUIRES: !empty()
+  template <class Ids>
+  std::int32_t top(const Ids& ids) {
+    while (heap_.empty()) open_next_bucket(ids);
+    return heap_.front();
+  }
 
   /// Makes room for a slot, without an event.
   void admit(std::int32_t slot) {
-    if (index(slot) < events_.size()) return;
-    events_.resize(index(slot) + 1);
-    place_.resize(index(slot) + 1, kAbsent);
+    if (index(slot) >= lines_.size()) lines_.resize(index(slot) + 1);
   }
 
   /// Sets the event of a slot; one that never comes leaves the queue. REQUIRES: admitted.
   template <class Ids>
   void set(std::int32_t slot, const Event<S>& event, const Ids& ids) {
+    Line& line = lines_[index(slot)];
     if (event.at == Time<S>::never()) {
       erase(slot, ids);
       return;
     }
-    std::int32_t place = place_[index(slot)];
-    events_[index(slot)] = event;
-    if (place == kAbsent) {
-      place = static_cast<std::int32_t>(heap_.size());
-      heap_.push_back(slot);
-      place_[index(slot)] = place;
+    const std::int32_t home = home_of(event.at);
+    if (line.home == kHeap && home == kHeap) {
+      line.event = event;
+      sift_down(sift_up(line.place, ids), ids);
+      return;
     }
-    sift_down(sift_up(place, ids), ids);
+    take_out(slot, ids);
+    line.event = event;
+    put_in(slot, home, ids);
   }
 
   template <class Ids>
   void erase(std::int32_t slot, const Ids& ids) {
-    if (place_[index(slot)] == kAbsent) return;
-    const std::int32_t hole = place_[index(slot)];
-    place_[index(slot)] = kAbsent;
-    events_[index(slot)] = Event<S>{};
-    const std::int32_t last = heap_.back();
-    heap_.pop_back();
-    if (last == slot) return;
-    heap_[index(hole)] = last;
-    place_[index(last)] = hole;
-    sift_down(sift_up(hole, ids), ids);
+    if (lines_[index(slot)].home == kAbsent) return;
+    take_out(slot, ids);
+    lines_[index(slot)].event = Event<S>{};
   }
 
  private:
+  // Where a slot is: in a bucket (its number), or in one of these.
   static constexpr std::int32_t kAbsent = -1;
+  static constexpr std::int32_t kHeap = -2;
+  static constexpr std::int32_t kRest = -3;
+
+  static constexpr std::int32_t kNull = -1;
   static constexpr std::int32_t kArity = 4;
+  static constexpr std::size_t kBucketsMin = 64;
+  static constexpr std::size_t kBucketsMax = std::size_t{1} << 22;
+  /// A bucket with more events than this, where buckets were cut for one each: time to cut anew.
+  static constexpr std::size_t kCrowd = 24;
+  /// Events that the width of buckets is estimated from.
+  static constexpr std::size_t kSample = 128;
+
+  /// All that the queue knows of a slot.
+  struct alignas(64) Line {
+    Event<S> event;
+    std::int32_t home = kAbsent;
+    std::int32_t place = kNull;  ///< in the heap or the rest; in a bucket: the next slot
+    std::int32_t previous = kNull;
+  };
+
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  Line& line(std::int32_t slot) { return lines_[index(slot)]; }
+
+  std::int32_t home_of(const Time<S>& at) const {
+    const Int128 after = detail::bucket_ticks(at) - lap_start_;
+    if (after < open_end_) return kHeap;
+    if (after >= lap_length_) return kRest;
+    return static_cast<std::int32_t>(static_cast<std::int64_t>(after >> shift_));
+  }
+
+  template <class Ids>
+  void put_in(std::int32_t slot, std::int32_t home, const Ids& ids) {
+    Line& entering = line(slot);
+    entering.home = home;
+    ++size_;
+    if (home == kHeap) {
+      entering.place = static_cast<std::int32_t>(heap_.size());
+      heap_.push_back(slot);
+      sift_up(entering.place, ids);
+    } else if (home == kRest) {
+      entering.place = static_cast<std::int32_t>(rest_.size());
+      rest_.push_back(slot);
+    } else {
+      std::int32_t& head = buckets_[index(home)];
+      entering.place = head;
+      entering.previous = kNull;
+      if (head != kNull) line(head).previous = slot;
+      head = slot;
+      occupied_[index(home) / 64] |= std::uint64_t{1} << (index(home) % 64);
+    }
+  }
+
+  template <class Ids>
+  void take_out(std::int32_t slot, const Ids& ids) {
+    Line& leaving = line(slot);
+    const std::int32_t home = leaving.home;
+    if (home == kAbsent) return;
+    leaving.home = kAbsent;
+    --size_;
+    if (home == kHeap) {
+      const std::int32_t last = heap_.back();
+      heap_.pop_back();
+      if (last == slot) return;
+      put(leaving.place, last);
+      sift_down(sift_up(leaving.place, ids), ids);
+    } else if (home == kRest) {
+      const std::int32_t last = rest_.back();
+      rest_.pop_back();
+      if (last == slot) return;
+      rest_[index(leaving.place)] = last;
+      line(last).place = leaving.place;
+    } else {
+      if (leaving.place != kNull) line(leaving.place).previous = leaving.previous;
+      if (leaving.previous != kNull) {
+        line(leaving.previous).place = leaving.place;
+        return;
+      }
+      buckets_[index(home)] = leaving.place;
+      if (leaving.place == kNull) {
+        occupied_[index(home) / 64] &= ~(std::uint64_t{1} << (index(home) % 64));
+      }
+    }
+  }
+
+  // REQUIRES: the heap is empty, the queue is not.
+  template <class Ids>
+  void open_next_bucket(const Ids& ids) {
+    for (std::size_t word = first_word_; word < occupied_.size(); ++word) {
+      if (occupied_[word] == 0) continue;
+      first_word_ = word;
+      const auto bucket = static_cast<std::int32_t>(
+          word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word])));
+      occupied_[word] &= occupied_[word] - 1;
+      open_end_ = (static_cast<Int128>(bucket) + 1) << shift_;
+      std::int32_t slot = buckets_[index(bucket)];
+      buckets_[index(bucket)] = kNull;
+      while (slot != kNull) {
+        const std::int32_t next = line(slot).place;
+        --size_;
+        put_in(slot, kHeap, ids);
+        slot = next;
+      }
+      released_ += heap_.size();
+      if (heap_.size() > kCrowd && 2 * released_ > size_) gather_all();
+      if (!heap_.empty()) return;
+      break;
+    }
+    begin_lap(ids);
+  }
+
+  // The world has become faster or fuller than the buckets were cut for.
+  void gather_all() {
+    for (const std::int32_t slot : heap_) gather(slot);
+    heap_.clear();
+    for (std::size_t word = first_word_; word < occupied_.size(); ++word) {
+      for (; occupied_[word] != 0; occupied_[word] &= occupied_[word] - 1) {
+        const std::size_t bucket =
+            word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word]));
+        for (std::int32_t slot = buckets_[bucket]; slot != kNull;) {
+          const std::int32_t next = line(slot).place;
+          gather(slot);
+          slot = next;
+        }
+        buckets_[bucket] = kNull;
+      }
+    }
+  }
+
+  void gather(std::int32_t slot) {
+    line(slot).home = kRest;
+    line(slot).place = static_cast<std::int32_t>(rest_.size());
+    rest_.push_back(slot);
+  }
+
+  // All events are in the rest: cuts buckets for them and files them.
+  template <class Ids>
+  void begin_lap(const Ids& ids) {
+    Int128 first = detail::bucket_ticks(event_of(rest_.front()).at);
+    for (const std::int32_t slot : rest_) {
+      first = std::min(first, detail::bucket_ticks(event_of(slot).at));
+    }
+    const std::size_t wanted =
+        std::clamp(2 * std::bit_ceil(rest_.size()), kBucketsMin, kBucketsMax);
+    if (buckets_.size() < wanted || buckets_.size() > 4 * wanted) {
+      buckets_.assign(wanted, kNull);
+      occupied_.assign(wanted / 64, 0);
+    }
+    shift_ = shift_for(first);
+    const Int128 width = static_cast<Int128>(1) << shift_;
+    lap_start_ = first;
+    lap_length_ = width * static_cast<Int128>(buckets_.size());
+    open_end_ = width;
+    first_word_ = 0;
+    released_ = 0;
+    refiled_.swap(rest_);
+    rest_.clear();
+    size_ -= refiled_.size();
+    for (const std::int32_t slot : refiled_) put_in(slot, home_of(event_of(slot).at), ids);
+    refiled_.clear();
+  }
+
+  // Buckets for about one event each while the nearer half of all is due, by their median.
+  int shift_for(Int128 first) {
+    std::array<Int128, kSample> after{};
+    const std::size_t count = std::min(kSample, rest_.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t slot = rest_[i * rest_.size() / count];
+      after[i] = detail::bucket_ticks(event_of(slot).at) - first;
+    }
+    const auto middle = after.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(after.begin(), middle, after.begin() + static_cast<std::ptrdiff_t>(count));
+    constexpr int kShiftMax = 96;  // no width beyond 2^32 s, so that a lap fits in 128 bits
+    const auto half = static_cast<Int128>((rest_.size() + 1) / 2);
+    const Int128 gap = *middle / half;
+    int shift = 0;
+    while (shift < kShiftMax && (static_cast<Int128>(1) << shift) < gap) ++shift;
+    return shift;
+  }
 
   template <class Ids>
   bool before(std::int32_t a, std::int32_t b, const Ids& ids) const {
-    return earlier(events_[index(a)], a, events_[index(b)], b, ids);
+    return earlier(event_of(a), a, event_of(b), b, ids);
   }
 
   void put(std::int32_t place, std::int32_t slot) {
     heap_[index(place)] = slot;
-    place_[index(slot)] = place;
+    line(slot).place = place;
   }
 
   template <class Ids>
@@ -149,9 +343,21 @@ class EventQueue {
     put(place, slot);
   }
 
+  std::vector<Line> lines_;  // of every slot
+  std::size_t size_ = 0;
+
   std::vector<std::int32_t> heap_;
-  std::vector<std::int32_t> place_;
-  std::vector<Event<S>> events_;
+  std::vector<std::int32_t> buckets_;  // the first slot of each
+  std::vector<std::uint64_t> occupied_;
+  std::vector<std::int32_t> rest_;
+  std::vector<std::int32_t> refiled_;  // kept for its memory
+
+  Int128 lap_start_ = 0;   // in 2^-64 s
+  Int128 lap_length_ = 0;  // likewise, from there; 0 before the first lap
+  Int128 open_end_ = 0;
+  int shift_ = 0;  // the logarithm of a bucket's width in 2^-64 s
+  std::size_t first_word_ = 0;
+  std::size_t released_ = 0;  // events from buckets, in this lap
 };
 
 }  // namespace stoss::engine

@@ -49,8 +49,8 @@ TEST(EventQueue, OrdersByInstantThenKindThenLowerThenHigherId) {
   queue.set(8, event_at(4, EventKind::DiskWallEnd, 9), kIds);
   std::vector<std::int32_t> order;
   while (!queue.empty()) {
-    order.push_back(queue.top());
-    queue.erase(queue.top(), kIds);
+    order.push_back(queue.top(kIds));
+    queue.erase(queue.top(kIds), kIds);
   }
   EXPECT_EQ(order, (std::vector<std::int32_t>{8, 6, 5, 4, 2, 1, 0}));
 }
@@ -86,13 +86,76 @@ TEST(EventQueue, AgreesWithASortedListUnderRandomWork) {
     }
     ASSERT_EQ(queue.empty(), reference.empty());
     if (reference.empty()) continue;
-    const std::int32_t top = queue.top();
+    const std::int32_t top = queue.top(kIds);
     const std::int32_t expected = first_of(reference);
     // Two slots may hold events of one pair; those are equal.
     ASSERT_FALSE(earlier(reference[top], top, reference[expected], expected, kIds));
     ASSERT_FALSE(earlier(reference[expected], expected, reference[top], top, kIds));
     ASSERT_EQ(queue.event_of(top).at, reference[top].at);
   }
+}
+
+/// Works a queue of `slots` off for a while: each event brings new ones, `step` after the last.
+template <class Step>
+void run_dry_against_a_sorted_list(std::int32_t slots, int rounds, Step&& step) {
+  Queue queue;
+  std::map<std::int32_t, Event<double>> reference;
+  const auto plan = [&](std::int32_t slot, const Instant& now) {
+    Event<double> event{step(now), slot ^ 1, 0, EventKind::DiskDisk};
+    queue.admit(slot);
+    queue.set(slot, event, kIds);
+    if (event.at == Instant::never()) {
+      reference.erase(slot);
+    } else {
+      reference[slot] = event;
+    }
+  };
+  for (std::int32_t slot = 0; slot < slots; ++slot) plan(slot, {});
+  Instant last;
+  for (int i = 0; i < rounds && !reference.empty(); ++i) {
+    ASSERT_EQ(queue.size(), reference.size());
+    const std::int32_t top = queue.top(kIds);
+    const std::int32_t expected = first_of(reference);
+    ASSERT_FALSE(earlier(reference[expected], expected, reference[top], top, kIds));
+    ASSERT_GE(queue.event_of(top).at, last);
+    last = queue.event_of(top).at;
+    plan(top, last);
+    plan((top * 7 + i) % slots, last);
+  }
+}
+
+TEST(EventQueue, KeepsItsOrderWhileItsTimeScaleChangesByManyDecades) {
+  Random random(test::seed_of_run());
+  int events = 0;
+  run_dry_against_a_sorted_list(300, 8'000, [&](const Instant& now) {
+    const double scale = ++events % 3000 < 1500 ? 1e-12 : 1e3;
+    return *later_by(now, scale * random.uniform(0, 1), 0.0);
+  });
+}
+
+TEST(EventQueue, KeepsItsOrderWithEventsFarBeyondALapAndNever) {
+  Random random(test::seed_of_run());
+  run_dry_against_a_sorted_list(300, 8'000, [&](const Instant& now) {
+    if (random.one_in(20)) return Instant::never();
+    return *later_by(now, random.decades(-18, 9), 0.0);
+  });
+}
+
+TEST(EventQueue, KeepsItsOrderWhenAllEventsFallOnFewInstants) {
+  Random random(test::seed_of_run());
+  run_dry_against_a_sorted_list(300, 8'000, [&](const Instant& now) {
+    return Instant{now.seconds + static_cast<std::int64_t>(random.below(2)), 0};
+  });
+}
+
+TEST(EventQueue, TakesAnEventBeforeTheOneThatIsOpen) {
+  Queue queue;
+  for (std::int32_t slot = 0; slot < 3; ++slot) queue.admit(slot);
+  queue.set(0, event_at(5, EventKind::DiskDisk, 1), kIds);
+  queue.set(1, event_at(9, EventKind::DiskDisk, 2), kIds);
+  EXPECT_EQ(queue.top(kIds), 0);
+  queue.set(2, event_at(-4, EventKind::DiskDisk, 1), kIds);
+  EXPECT_EQ(queue.top(kIds), 2);
 }
 
 }  // namespace

@@ -26,6 +26,8 @@ class AabbTree {
   bool contains(std::int32_t item) const {
     return item < static_cast<std::int32_t>(leaf_of_.size()) && leaf_of_[index(item)] != kNull;
   }
+  /// REQUIRES: in the tree.
+  const Aabb& box_of(std::int32_t item) const { return nodes_[index(leaf_of_[index(item)])].box; }
 
   /// Calls visit(item) for every item whose box overlaps `box`.
   template <class Visit>

@@ -11,56 +11,85 @@
 // The margin follows the work: a body that renews more often than it predicts gets a larger one, so
 // that a lone flyer's renewals become geometric in distance; a crowded one gets a smaller one.
 //
-// Source: near-neighbour lists with per-body updates, Donev, Torquato, Stillinger, J. Comput. Phys.
-// 202 (2005) 737. Deviation: boxes in a dynamic tree instead of cells, adaptive margins.
+// Disks stand in a grid, walls, which may be a thousand times longer than any of them, in a tree.
+// Bodies that are no dynamic disks keep no lists: a wall may have thousands of neighbours and is
+// asked for them only when it is commanded. They are searched for then.
 //
-// Invariant: lists are symmetric. No bit of a result depends on boxes, margins or the order of
-// lists.
+// Source: near-neighbour lists with per-body updates, Donev, Torquato, Stillinger, J. Comput. Phys.
+// 202 (2005) 737. Deviation: boxes in a hierarchical grid, adaptive margins.
+//
+// Invariant: a body that keeps a list has every neighbour in it. No bit of a result depends on
+// boxes, margins or the order of lists.
 
 #include "body.hpp"
 #include "broad_phase/aabb_tree.hpp"
+#include "broad_phase/box_grid.hpp"
+#include "broad_phase/list_pool.hpp"
 #include "screen.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace stoss::engine {
 
+/// What a body is to the broad phase.
+enum class Role : std::uint8_t { Wall, FixedDisk, DynamicDisk };
+
 class Neighbours {
  public:
-  const std::vector<Slot>& of(Slot slot) const { return entries_[index(slot)].list; }
+  /// A place in two words along each axis, m: far from the origin the difference of two needs it.
+  struct Anchor {
+    double x = 0;
+    double y = 0;
+    double x_low = 0;
+    double y_low = 0;
+  };
+
+  /// REQUIRES: of a dynamic disk.
+  std::span<const Slot> of(Slot slot) const { return pool_.items(entries_[index(slot)].list); }
   double margin(Slot slot) const { return entries_[index(slot)].margin; }
+  /// Where the body was when its box was made.
+  const Anchor& anchor(Slot slot) const { return entries_[index(slot)].anchor; }
+  const Aabb& box_of(Slot slot) const {
+    return entries_[index(slot)].role == Role::Wall ? tree_.box_of(slot) : grid_.box_of(slot);
+  }
 
   /// Makes the box of a body afresh: `tight` is its extent and `here` its place now.
   /// `interacts(slot)` says whether the body can meet another whose box overlaps.
   template <class Interacts>
-  void renew(
-      Slot slot, const Aabb& tight, const Glance& here, double margin, const Interacts& interacts) {
+  void renew(Slot slot,
+             Role role,
+             const Aabb& tight,
+             const Glance& here,
+             double margin,
+             const Interacts& interacts) {
     reserve(slot);
     Entry& entry = entries_[index(slot)];
-    if (tree_.contains(slot)) tree_.remove(slot);
+    take_out(slot);
+    entry.role = role;
     entry.margin = margin;
-    entry.anchor = here;
+    entry.anchor = {here.x, here.y, here.x_low, here.y_low};
     entry.work = 0;
     const Aabb box = grown(tight, margin);
+    if (role == Role::Wall) {
+      tree_.insert(slot, box);
+    } else {
+      grid_.insert(slot, box);
+    }
     found_.clear();
-    tree_.query(box, [&](Slot other) {
+    query(box, [&](Slot other) {
       if (interacts(other)) found_.push_back(other);
     });
-    tree_.insert(slot, box);
-    replace_list(slot);
+    replace_neighbours(slot);
   }
 
-  void remove(Slot slot) {
-    tree_.remove(slot);
-    found_.clear();
-    replace_list(slot);
-  }
+  void remove(Slot slot);
 
   /// Notes predictions made for a body since its last renewal.
   void note_work(Slot slot) {
     Entry& entry = entries_[index(slot)];
-    entry.work += static_cast<std::uint32_t>(entry.list.size());
+    entry.work += entry.list.size;
   }
 
   /// The margin to renew with, so that searching and predicting cost about the same.
@@ -71,37 +100,43 @@ class Neighbours {
     constexpr double kSearchWork = 24;
     constexpr double kFoundWork = 2;
     const Entry& entry = entries_[index(slot)];
-    const double search = kSearchWork + kFoundWork * static_cast<double>(entry.list.size());
+    const double search = kSearchWork + kFoundWork * static_cast<double>(entry.list.size);
     if (entry.work < 0.5 * search) return entry.margin * kGrow;
     if (entry.work > 2.0 * search) return entry.margin * kShrink;
     return entry.margin;
   }
 
-  /// Where the body was when its box was made.
-  const Glance& anchor(Slot slot) const { return entries_[index(slot)].anchor; }
-
+  /// Calls visit(slot) for every body whose box overlaps `box`.
   template <class Visit>
   void query(const Aabb& box, Visit&& visit) const {
+    grid_.query(box, visit);
     tree_.query(box, visit);
   }
 
  private:
-  struct Entry {
-    std::vector<Slot> list;
-    Glance anchor;
+  struct alignas(64) Entry {
+    Anchor anchor;
     double margin = 0;
+    PooledList list;
     std::uint32_t work = 0;
     std::uint32_t mark = 0;
+    Role role = Role::DynamicDisk;
+    bool keeps_list() const { return role == Role::DynamicDisk; }
   };
 
   static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
   void reserve(Slot slot) {
     if (index(slot) >= entries_.size()) entries_.resize(index(slot) + 1);
   }
-  void replace_list(Slot slot);
+  void take_out(Slot slot);
+  void replace_neighbours(Slot slot);
+  std::uint32_t next_stamp();
 
+  BoxGrid grid_;
   AabbTree tree_;
   std::vector<Entry> entries_;
+  ListPool pool_;
+  std::vector<Slot> before_;  // whom a body without a list had as neighbours, and a few more
   std::vector<Slot> found_;
   std::uint32_t stamp_ = 0;
 };
