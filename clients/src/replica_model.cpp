@@ -236,7 +236,7 @@ engine::BodyState ReplicaModel::disk_at(const ReplicaBody& body,
   state.velocity = engine::evaluate_velocity(motion, arithmetic_, instant);
   state.angle = engine::turned(motion.angle, motion.spin, motion.since, instant);
   state.spin = motion.spin;
-  state.radius = body.body.radius;
+  state.radius = engine::evaluate_radius(motion, body.body, arithmetic_, instant);
   return state;
 }
 

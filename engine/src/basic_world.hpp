@@ -25,6 +25,7 @@
 #include "event_queue.hpp"
 #include "id_ledger.hpp"
 #include "laws.hpp"
+#include "motion_law/drag.hpp"
 #include "screen.hpp"
 #include "world_core.hpp"
 
@@ -90,6 +91,8 @@ class BasicWorld final : public WorldCore {
 
  private:
   using Relative = typename Laws::template Relative<S>;
+  using Radius = typename Laws::template Radius<S>;
+  using Reach = typename Laws::template Reach<S>;
 
   /// A contact of two bodies as their motions foretell it. `a` is the disk of a disk and a wall, or
   /// the disk of lower id.
@@ -183,8 +186,18 @@ class BasicWorld final : public WorldCore {
   // basic_world_laws.hpp
   DoubleWord2<S> position_of(Slot slot, const Time<S>& instant) const;
   DoubleWord2<S> velocity_of(Slot slot, const Time<S>& instant) const;
+  Radius radius_of(Slot slot, const Time<S>& instant) const;
+  double radius_now(Slot slot) const;
+  double growth_of(Slot slot) const;
+  Reach reach_between(Slot a, Slot b, const Time<S>& instant) const;
+  auto radius_in_contact(Slot disk, const Time<S>& instant) const;
   Glance glance_of(Slot slot) const;
   double pull_of(Slot slot) const;
+  double bend_of(Slot slot, const Glance& here) const;
+  bool fly_straight(Slot a, Slot b) const;
+  Flight<S> flight_of(Slot slot, const Time<S>& instant) const;
+  DoubleWord2<S> wind_on(Slot slot) const;
+  DoubleWord2<S> pull_towards(Slot support) const;
   S valid_for(Slot a, Slot b, const Time<S>& reference) const;
   void renew_law(Slot slot);
   std::optional<Event<S>> own_event(Slot slot) const;
@@ -195,6 +208,9 @@ class BasicWorld final : public WorldCore {
   void set_rotation(Slot slot, const Rotation& rotation);
   void turn(Slot slot, const Time<S>& instant);
   ContactOutcome impulse_of(const Contact& contact, const Time<S>& instant) const;
+  DoubleWord2<S> surface_velocity(const Contact& contact,
+                                  const DoubleWord2<S>& normal,
+                                  const DoubleWord2<S>& velocity) const;
   ContactOutcome lossy_impulse(const Contact& contact,
                                const DoubleWord2<S>& velocity,
                                const Time<S>& instant) const;

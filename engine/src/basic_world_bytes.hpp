@@ -32,7 +32,12 @@ void BasicWorld<S, Laws>::write_body(Sink& sink, Slot slot, const Effects& kind)
     write_vector(sink, shape(slot).edge);
     return;
   }
-  write_scalar(sink, body.radius);
+  if constexpr (Laws::kGrows) {
+    const bool goes_on = laws_for(kind) == LawsKind::Growing;
+    write_scalar(sink, goes_on ? body.radius : to_scalar(body.grown));
+  } else {
+    write_scalar(sink, body.radius);
+  }
   write_scalar(sink, body.mass);
   write_body_part(sink, slot, kind);
 }
@@ -161,7 +166,8 @@ Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
     if (!fresh.has_sound_supports(slot)) return damaged("what a body rests on is damaged");
   }
   fresh.settle();
-  if (!fresh.queue_.empty() && fresh.queue_.event_of(fresh.queue_.top(fresh.id_lookup())).at < fresh.now_) {
+  if (!fresh.queue_.empty() &&
+      fresh.queue_.event_of(fresh.queue_.top(fresh.id_lookup())).at < fresh.now_) {
     return damaged("a contact lies before the present");
   }
   *this = std::move(fresh);
@@ -205,6 +211,9 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
   }
   const bool moves = m.velocity.x.hi != S(0) || m.velocity.y.hi != S(0);
   if (body.type == BodyType::Static && moves) return false;
+  if constexpr (Laws::kGrows) {
+    if (!is_number(body.grown) || !(body.grown.hi > S(0))) return false;
+  }
   const Rotation rotation = rotation_of(slot);
   return has_sound_kicks(slot) && body.radius > S(0) &&
          static_cast<double>(body.radius) <= detail::kLengthMax<S> &&

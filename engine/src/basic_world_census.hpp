@@ -10,6 +10,14 @@
 
 namespace stoss::engine {
 
+namespace detail {
+
+inline Aabb moved_by(const Aabb& box, const Vector2& way) {
+  return {box.low_x + way.x(), box.low_y + way.y(), box.high_x + way.x(), box.high_y + way.y()};
+}
+
+}  // namespace detail
+
 /// The extent of a body's flight from its last event to now(), in doubles.
 template <class S, class Laws>
 Aabb BasicWorld<S, Laws>::swept_box(Slot slot) const {
@@ -20,6 +28,16 @@ Aabb BasicWorld<S, Laws>::swept_box(Slot slot) const {
   const auto back_y = static_cast<double>(to_scalar(then.y - now.y));
   const Aabb start{
       end.low_x + back_x, end.low_y + back_y, end.high_x + back_x, end.high_y + back_y};
+  if constexpr (Laws::kDragged) {
+    // It flies within the parallelogram of its two shares, v s and a f.
+    if (!at(slot).is_dynamic()) return merged(start, end);
+    const double run = detail::rough_drag_clock(rough_seconds(now_, at(slot).motion.since),
+                                                static_cast<double>(laws_.drag))
+                           .run;
+    const Vector2 share = run * detail::rounded(at(slot).motion.velocity);
+    return merged(merged(start, end),
+                  merged(detail::moved_by(start, share), detail::moved_by(end, -share)));
+  }
   double sag = 0;  // between its ends a parabola leaves the chord by a T^2 / 8
   if constexpr (Laws::kCurved) {
     const double elapsed = rough_seconds(now_, at(slot).motion.since);

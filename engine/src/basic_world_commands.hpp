@@ -259,6 +259,7 @@ Slot BasicWorld<S, Laws>::place(const DiskSpec& spec) {
   body.motion.position = detail::stored<S>(spec.position);
   body.motion.velocity = detail::stored<S>(spec.velocity);
   body.radius = S(spec.radius);
+  if constexpr (Laws::kGrows) body.grown = {body.radius, S(0)};
   body.mass = S(spec.mass);
   set_rotation(slot, {detail::canonical(spec.angle), detail::canonical(spec.spin)});
   start_kicks(slot);
@@ -282,13 +283,14 @@ Slot BasicWorld<S, Laws>::place(const WallSpec& spec) {
   const DoubleWord2<S> end = detail::stored<S>(spec.end);
   shape(slot) = {{end.x - body.motion.position.x, end.y - body.motion.position.y}, {}};
   ++walls_in_use_;
+  renew_law(slot);
   return slot;
 }
 
 /// The distance at which two bodies touch, m: between centres, or from a centre to a wall.
 template <class S, class Laws>
 double BasicWorld<S, Laws>::reach_of(Slot a, Slot b) const {
-  return static_cast<double>(at(a).radius) + static_cast<double>(at(b).radius);
+  return radius_now(a) + radius_now(b);
 }
 
 /// The distance between two surfaces at now(), m; negative for an overlap. Not for two walls.
@@ -306,11 +308,16 @@ double BasicWorld<S, Laws>::clearance(Slot a, Slot b) const {
     } else if (along.hi > S(0)) {  // the face: its distance is the cross product over the length
       const DoubleWord<S> cross = e.x * apart.y - e.y * apart.x;
       const DoubleWord<S> distance = (cross.hi < S(0) ? -cross : cross) / sqrt(length2);
-      return static_cast<double>(to_scalar(distance - at(a).radius));
+      return static_cast<double>(to_scalar(distance - radius_of(a, now_)));
     }
   }
   const DoubleWord<S> distance = sqrt(apart.x * apart.x + apart.y * apart.y);
-  const DoubleWord<S> reach = two_sum(at(a).radius, at(b).radius);
+  DoubleWord<S> reach;
+  if constexpr (Laws::kGrows) {
+    reach = radius_of(a, now_) + radius_of(b, now_);
+  } else {
+    reach = two_sum(at(a).radius, at(b).radius);
+  }
   return static_cast<double>(to_scalar(distance - reach));
 }
 

@@ -154,7 +154,8 @@ bool BasicWorld<S, Laws>::is_squeezed(const Contact& contact) const {
   if (hop(disk, at(disk).motion.since, now_) > room) return false;
   const auto jaw = [&](Slot other) {
     const Vector2 normal = normal_towards(disk, other);
-    return Jaw{normal, detail::rounded(at(other).motion.velocity).dot(normal)};
+    const double closing = growth_of(disk) + growth_of(other);
+    return Jaw{normal, detail::rounded(at(other).motion.velocity).dot(normal) - closing};
   };
   const Jaw first = jaw(anvil);
   std::vector<Jaw> others;
@@ -227,6 +228,7 @@ void BasicWorld<S, Laws>::rebase(Slot slot, const Time<S>& instant) {
   Body<S, Laws>& body = at(slot);
   turn(slot, instant);
   const DoubleWord2<S> position = position_of(slot, instant);
+  if constexpr (Laws::kGrows) body.grown = radius_of(slot, instant);
   body.motion.velocity = velocity_of(slot, instant);
   body.motion.position = position;
   body.motion.since = instant;
@@ -276,6 +278,7 @@ Collision BasicWorld<S, Laws>::describe(const Contact& contact,
   const Body<S, Laws>& a = at(contact.a);
   const Body<S, Laws>& b = at(contact.b);
   const DoubleWord2<S> centre = position_of(contact.a, instant);
+  const Radius radius = radius_of(contact.a, instant);
   Collision collision;
   collision.sequence = counters_.collisions;
   collision.instant = to_instant(instant);
@@ -285,8 +288,8 @@ Collision BasicWorld<S, Laws>::describe(const Contact& contact,
   collision.a = a.id;
   collision.b = b.id;
   collision.normal = {static_cast<double>(impulse.normal_x), static_cast<double>(impulse.normal_y)};
-  collision.point = {static_cast<double>(to_scalar(centre.x + impulse.normal_x * a.radius)),
-                     static_cast<double>(to_scalar(centre.y + impulse.normal_y * a.radius))};
+  collision.point = {static_cast<double>(to_scalar(centre.x + radius * impulse.normal_x)),
+                     static_cast<double>(to_scalar(centre.y + radius * impulse.normal_y))};
   collision.impulse = static_cast<double>(impulse.impulse);
   collision.approach_speed = static_cast<double>(impulse.approach_speed);
   collision.velocity_a = detail::rounded(a.motion.velocity);

@@ -5,10 +5,12 @@
 // branches here, an instance holds one.
 
 #include "basic_world.hpp"
+#include "contact_law/growing.hpp"
 #include "contact_law/restitution.hpp"
 #include "contact_law/rough.hpp"
 #include "motion_law/accelerated.hpp"
 #include "motion_law/floor_friction.hpp"
+#include "motion_law/growth.hpp"
 #include "simultaneous.hpp"
 
 namespace stoss::engine {
@@ -16,7 +18,9 @@ namespace stoss::engine {
 template <class S, class Laws>
 DoubleWord2<S> BasicWorld<S, Laws>::position_of(Slot slot, const Time<S>& instant) const {
   const Motion<S>& motion = at(slot).motion;
-  if constexpr (Laws::kCurved) {
+  if constexpr (Laws::kDragged) {
+    return flight_of(slot, instant).position;
+  } else if constexpr (Laws::kCurved) {
     return position_at(motion, at(slot).acceleration, instant);
   } else {
     return position_at(motion, instant);
@@ -27,17 +31,107 @@ template <class S, class Laws>
 DoubleWord2<S> BasicWorld<S, Laws>::velocity_of(Slot slot,
                                                 [[maybe_unused]] const Time<S>& instant) const {
   const Motion<S>& motion = at(slot).motion;
-  if constexpr (Laws::kCurved) {
+  if constexpr (Laws::kDragged) {
+    return flight_of(slot, instant).velocity;
+  } else if constexpr (Laws::kCurved) {
     return velocity_at(motion, at(slot).acceleration, instant);
   } else {
     return motion.velocity;
   }
 }
 
+/// Under drag; walls, kinematic and static disks do not feel it.
+template <class S, class Laws>
+Flight<S> BasicWorld<S, Laws>::flight_of(Slot slot, const Time<S>& instant) const {
+  const Body<S, Laws>& body = at(slot);
+  if (!body.is_dynamic()) return {position_at(body.motion, instant), body.motion.velocity};
+  return flight_at(body.motion, body.acceleration, laws_.drag, instant);
+}
+
+/// What the medium's drag is to a body that keeps its velocity: m V, to be held against.
+template <class S, class Laws>
+DoubleWord2<S> BasicWorld<S, Laws>::wind_on([[maybe_unused]] Slot slot) const {
+  if constexpr (Laws::kDragged) {
+    return at(slot).motion.velocity * laws_.drag;
+  } else {
+    return {};
+  }
+}
+
+/// What presses a disk on a support as it moves: gravity, and the medium that it is moved through.
+template <class S, class Laws>
+DoubleWord2<S> BasicWorld<S, Laws>::pull_towards([[maybe_unused]] Slot support) const {
+  if constexpr (Laws::kDragged) {
+    return laws_.gravity - wind_on(support);
+  } else {
+    return laws_.gravity;
+  }
+}
+
+/// Of a disk at an instant before or after its last event; 0 for a wall.
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::radius_of(Slot slot, [[maybe_unused]] const Time<S>& instant) const
+    -> Radius {
+  if constexpr (Laws::kGrows) {
+    if (at(slot).is_wall()) return {};
+    return grown_by(at(slot).grown, laws_.growth, at(slot).motion.since, instant);
+  } else {
+    return at(slot).radius;
+  }
+}
+
+/// The radius at now(), rounded, m.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::radius_now(Slot slot) const {
+  if constexpr (Laws::kGrows) {
+    return static_cast<double>(to_scalar(radius_of(slot, now_)));
+  } else {
+    return static_cast<double>(at(slot).radius);
+  }
+}
+
+/// How fast a body's surface moves without it, m/s.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::growth_of([[maybe_unused]] Slot slot) const {
+  if constexpr (Laws::kGrows) {
+    return at(slot).is_wall() ? 0.0 : static_cast<double>(laws_.growth);
+  } else {
+    return 0;
+  }
+}
+
+/// The distance at which the centres of two disks touch.
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::reach_between(Slot a,
+                                        Slot b,
+                                        [[maybe_unused]] const Time<S>& instant) const -> Reach {
+  if constexpr (Laws::kGrows) {
+    return {radius_of(a, instant) + radius_of(b, instant), two_sum(laws_.growth, laws_.growth)};
+  } else {
+    return two_sum(at(a).radius, at(b).radius);
+  }
+}
+
+/// The distance at which a disk's centre touches a wall.
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::radius_in_contact(Slot disk,
+                                            [[maybe_unused]] const Time<S>& instant) const {
+  if constexpr (Laws::kGrows) {
+    return Reach{radius_of(disk, instant), {laws_.growth, S(0)}};
+  } else {
+    return at(disk).radius;
+  }
+}
+
 template <class S, class Laws>
 Glance BasicWorld<S, Laws>::glance_of(Slot slot) const {
+  if constexpr (Laws::kDragged) {
+    if (at(slot).is_dynamic())
+      return dragged_glance<S>(
+          at(slot).motion, at(slot).acceleration, static_cast<double>(laws_.drag), now_);
+  }
   Glance g = glance<S>(at(slot).motion, now_);
-  if constexpr (Laws::kCurved) {
+  if constexpr (Laws::kCurved && !Laws::kDragged) {
     const double elapsed = rough_seconds(now_, at(slot).motion.since);
     const auto add = [&](const DoubleWord<S>& acceleration, double& low, double& velocity) {
       const double gained = static_cast<double>(acceleration.hi) * elapsed;
@@ -51,10 +145,36 @@ Glance BasicWorld<S, Laws>::glance_of(Slot slot) const {
   return g;
 }
 
-/// The sum of the components of a body's acceleration, m/s^2.
+/// The sum of the components of a body's acceleration, m/s^2; under drag of what pulls besides.
 template <class S, class Laws>
 double BasicWorld<S, Laws>::pull_of(Slot slot) const {
+  if (Laws::kDragged && !at(slot).is_dynamic()) return 0;
   return static_cast<double>(detail::sum_norm(at(slot).acceleration)) * (1 + kScreenSlack<S>);
+}
+
+/// The largest acceleration that a body has from now on until its next event, m/s^2.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::bend_of(Slot slot, [[maybe_unused]] const Glance& here) const {
+  if constexpr (Laws::kDragged) {  // a - m u, which falls as e^(-m t)
+    if (!at(slot).is_dynamic()) return 0;
+    const DoubleWord2<S>& a = at(slot).acceleration;
+    const auto rate = static_cast<double>(laws_.drag);
+    return (std::abs(static_cast<double>(a.x.hi) - rate * here.vx) +
+            std::abs(static_cast<double>(a.y.hi) - rate * here.vy)) *
+           (1 + kScreenSlack<S>)+kScreenSlack<S> * pull_of(slot);
+  } else {
+    return pull_of(slot);
+  }
+}
+
+/// Is the motion of one seen from the other straight under drag? It then ends after 1 / m.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::fly_straight([[maybe_unused]] Slot a, [[maybe_unused]] Slot b) const {
+  if constexpr (Laws::kDragged) {
+    return detail::is_zero(at(a).acceleration - at(b).acceleration);
+  } else {
+    return false;
+  }
 }
 
 /// For how long after `reference` both motions hold, s.
@@ -77,7 +197,7 @@ void BasicWorld<S, Laws>::renew_law(Slot slot) {
   if constexpr (Laws::kCurved) {
     Body<S, Laws>& body = at(slot);
     body.moves_for = {std::numeric_limits<S>::infinity(), S(0)};
-    body.acceleration = {};
+    body.acceleration = wind_on(slot);
     if (!body.is_dynamic()) return;
     if (body.support != kNoId) {
       renew_rest(slot);
@@ -198,6 +318,21 @@ auto BasicWorld<S, Laws>::impulse_of(const Contact& contact, const Time<S>& inst
   }
 }
 
+/// Of b from a where they touch: growing surfaces come towards each other by themselves.
+template <class S, class Laws>
+DoubleWord2<S> BasicWorld<S, Laws>::surface_velocity([[maybe_unused]] const Contact& contact,
+                                                     [[maybe_unused]] const DoubleWord2<S>& normal,
+                                                     const DoubleWord2<S>& velocity) const {
+  if constexpr (Laws::kGrows) {
+    const bool is_pair = contact.kind == EventKind::DiskDisk;
+    const DoubleWord<S> growth =
+        is_pair ? two_sum(laws_.growth, laws_.growth) : DoubleWord<S>{laws_.growth, S(0)};
+    return velocity_of_growing_surfaces(normal, velocity, growth);
+  } else {
+    return velocity;
+  }
+}
+
 // An elastic contact is one of restitution 1, to the same bits.
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::lossy_impulse(const Contact& contact,
@@ -212,8 +347,13 @@ auto BasicWorld<S, Laws>::lossy_impulse(const Contact& contact,
     outcome.regularised = true;
   }
   const DoubleWord2<S> p = contact_vector(contact);
-  outcome.impulse = restitution_impulse<S>(
-      p, velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic(), restitution);
+  outcome.impulse = restitution_impulse<S>(p,
+                                           surface_velocity(contact, p, velocity),
+                                           a.mass,
+                                           !a.is_dynamic(),
+                                           b.mass,
+                                           !b.is_dynamic(),
+                                           restitution);
   if constexpr (Laws::kCurved) {
     if (is_last_bounce(contact, outcome.impulse, restitution)) {
       outcome.is_last_bounce = true;
@@ -301,7 +441,14 @@ void BasicWorld<S, Laws>::write_body_part(Sink& sink, Slot slot, const Effects& 
     write_scalar(sink, at(slot).spin);
     write_time(sink, at(slot).last_contact);
   }
-  if (laws == LawsKind::Accelerated) {
+  if (laws == LawsKind::Growing) {
+    if constexpr (Laws::kGrows) {
+      write_scalar(sink, at(slot).grown);
+    } else {
+      write_scalar(sink, DoubleWord<S>{at(slot).radius, S(0)});
+    }
+  }
+  if (laws == LawsKind::Accelerated || laws == LawsKind::Dragged) {
     if constexpr (Laws::kCurved) {
       sink.word(at(slot).support);
       sink.word(at(slot).second_support);
@@ -323,6 +470,7 @@ void BasicWorld<S, Laws>::read_body_part(ByteSource& source, Slot slot) {
     at(slot).spin = read_double_word<S>(source);
     at(slot).last_contact = read_time<Time<S>>(source);
   }
+  if constexpr (Laws::kGrows) at(slot).grown = read_double_word<S>(source);
   if constexpr (Laws::kCurved) {
     at(slot).support = source.word();
     at(slot).second_support = source.word();

@@ -79,6 +79,15 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::relative_motion(Slot of, Slot from, const Time<S>& reference) const
     -> Relative {
+  if constexpr (Laws::kDragged) {
+    const Flight<S> a = flight_of(of, reference);
+    const Flight<S> b = flight_of(from, reference);
+    return {{a.position - b.position,
+             a.velocity - b.velocity,
+             at(of).acceleration - at(from).acceleration,
+             velocity_grain(a.velocity, b.velocity)},
+            laws_.drag};
+  }
   const DoubleWord2<S> position = position_of(of, reference) - position_of(from, reference);
   const DoubleWord2<S> v = velocity_of(of, reference);
   const DoubleWord2<S> u = velocity_of(from, reference);
@@ -91,18 +100,16 @@ auto BasicWorld<S, Laws>::relative_motion(Slot of, Slot from, const Time<S>& ref
 
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::disk_disk_contact_of(Slot a, Slot b) const -> std::optional<Contact> {
-  const Body<S, Laws>& first = at(a);
-  const Body<S, Laws>& second = at(b);
   Contact contact{.a = a,
                   .b = b,
                   .kind = EventKind::DiskDisk,
                   .feature = WallFeature::Face,
-                  .reference = std::max(first.motion.since, second.motion.since),
+                  .reference = std::max(at(a).motion.since, at(b).motion.since),
                   .relative = {},
                   .after_reference = {}};
   contact.relative = relative_motion(b, a, contact.reference);
   const auto after = Laws::pair_contact(
-      contact.relative, two_sum(first.radius, second.radius), valid_for(a, b, contact.reference));
+      contact.relative, reach_between(a, b, contact.reference), valid_for(a, b, contact.reference));
   if (!after) return std::nullopt;
   contact.after_reference = *after;
   return contact;
@@ -146,6 +153,7 @@ auto BasicWorld<S, Laws>::disk_wall_contact_of(Slot disk, Slot wall) const
   const Time<S> reference = std::max(d.motion.since, w.motion.since);
   const Relative from_start = relative_motion(disk, wall, reference);
   const S valid = valid_for(disk, wall, reference);
+  const auto radius = radius_in_contact(disk, reference);
   std::optional<Contact> best;
   const auto consider =
       [&](EventKind kind, WallFeature feature, const Relative& relative, const Duration<S>& after) {
@@ -158,13 +166,13 @@ auto BasicWorld<S, Laws>::disk_wall_contact_of(Slot disk, Slot wall) const
   bool has_left_face = false;
   if constexpr (Laws::kCurved) has_left_face = d.slid_off == w.id;
   if (!has_left_face) {
-    if (const auto after = Laws::face_contact(from_start, shape(wall).edge, d.radius, valid)) {
+    if (const auto after = Laws::face_contact(from_start, shape(wall).edge, radius, valid)) {
       consider(EventKind::DiskWall, WallFeature::Face, from_start, *after);
     }
   }
   for (int end = 0; end < 2; ++end) {
     const Relative from_end = motion_from_end(from_start, wall, end);
-    const auto after = Laws::point_contact(from_end, d.radius, valid);
+    const auto after = Laws::point_contact(from_end, radius, valid);
     if (!after || hidden_by_faces(from_end, wall, end, *after, has_left_face)) continue;
     consider(
         EventKind::DiskWallEnd, end == 0 ? WallFeature::Start : WallFeature::End, from_end, *after);
@@ -199,16 +207,25 @@ Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const
   if (all_pairs()) return event;
   double pull = 0;
   if constexpr (Laws::kCurved) pull = pull_of(slot);
-  if (here.vx == 0 && here.vy == 0 && pull == 0) return event;
+  const double growth = growth_of(slot);
+  if (here.vx == 0 && here.vy == 0 && pull == 0 && growth == 0) return event;
   constexpr double kEarly = 1 - kScreenSlack<S>;
   const Neighbours::Anchor& anchor = neighbours_.anchor(slot);
-  const double margin = neighbours_.margin(slot) * kEarly;
+  double margin = neighbours_.margin(slot) * kEarly;
+  if constexpr (Laws::kGrows) margin -= radius_now(slot) - at(slot).boxed_radius;
   const double moved_x = (here.x - anchor.x) + (here.x_low - anchor.x_low);
   const double moved_y = (here.y - anchor.y) + (here.y_low - anchor.y_low);
   double after = std::numeric_limits<double>::infinity();
   const auto leave = [&](double moved, double v) {
+    if constexpr (Laws::kDragged) {  // the drag ends the motion before
+      const double way = margin - std::abs(moved);
+      const bool is_held = pull == 0 && at(slot).is_dynamic();
+      if (is_held && std::abs(v) < static_cast<double>(laws_.drag) * way) return;
+    }
     if constexpr (Laws::kCurved) {
       after = std::min(after, shortest_crossing(margin - std::abs(moved), std::abs(v), pull));
+    } else if constexpr (Laws::kGrows) {
+      after = std::min(after, (margin - std::abs(moved)) / (std::abs(v) + growth));
     } else if (v != 0) {
       after = std::min(after, (margin - std::copysign(moved, moved * v)) / std::abs(v));
     }
@@ -235,14 +252,22 @@ bool BasicWorld<S, Laws>::may_meet(Slot slot,
   const Body<S, Laws>& own = at(slot);
   const Body<S, Laws>& theirs = at(other);
   const Glance there = glance_of(other);
-  double bend = 0;  // by how far accelerations can lead off the straight line, m
-  if constexpr (Laws::kCurved) {
-    bend = 0.5 * horizon * horizon * (pull_of(slot) + pull_of(other)) * (1 + kScreenSlack<S>);
+  double bend = 0;  // by how far accelerations can lead off the straight line, or disks grow, m
+  if (fly_straight(slot, other)) {
+    if constexpr (Laws::kDragged)
+      horizon = std::min(horizon, kLastOfDrag / static_cast<double>(laws_.drag));
+  } else if constexpr (Laws::kCurved) {
+    const double pull = bend_of(slot, here) + bend_of(other, there);
+    bend = 0.5 * horizon * horizon * pull * (1 + kScreenSlack<S>);
+    if (!(bend < std::numeric_limits<double>::infinity())) return true;
+  }
+  if constexpr (Laws::kGrows) {
+    bend = horizon * (growth_of(slot) + growth_of(other)) * (1 + kScreenSlack<S>);
     if (!(bend < std::numeric_limits<double>::infinity())) return true;
   }
   if (own.is_wall() || theirs.is_wall()) {
     const DoubleWord2<S>& edge = own.is_wall() ? shape(slot).edge : shape(other).edge;
-    const auto radius = static_cast<double>(own.is_wall() ? theirs.radius : own.radius) + bend;
+    const auto radius = radius_now(own.is_wall() ? other : slot) + bend;
     return disk_may_meet_wall(own.is_wall() ? there : here,
                               own.is_wall() ? here : there,
                               radius,
@@ -251,8 +276,8 @@ bool BasicWorld<S, Laws>::may_meet(Slot slot,
                               horizon,
                               kScreenSlack<S>);
   }
-  const double reach = static_cast<double>(own.radius) + static_cast<double>(theirs.radius) + bend;
-  if constexpr (Laws::kCurved) {
+  const double reach = radius_now(slot) + radius_now(other) + bend;
+  if constexpr (Laws::kCurved || Laws::kGrows) {
     if (disks_are_within(here, there, reach, kScreenSlack<S>)) return true;  // they may turn back
   }
   return disks_may_meet(here, there, reach, horizon, kScreenSlack<S>);
@@ -295,7 +320,7 @@ Aabb BasicWorld<S, Laws>::tight_box(Slot slot) const {
   const Glance here = glance_of(slot);
   const double x = here.x + here.x_low;
   const double y = here.y + here.y_low;
-  const double r = static_cast<double>(body.radius) * (1 + kScreenSlack<S>)+here.error;
+  const double r = radius_now(slot) * (1 + kScreenSlack<S>)+here.error;
   const Aabb box{x - r, y - r, x + r, y + r};
   if (!body.is_wall()) return box;
   const DoubleWord2<S>& edge = shape(slot).edge;
@@ -311,8 +336,8 @@ double BasicWorld<S, Laws>::smallest_margin(Slot slot) const {
   constexpr double kShortestCrossing = 1e-9;  // s; chosen: far above the resolution of an Instant
   constexpr double kPartOfRadius = 1e-3;
   const DoubleWord2<S> v = velocity_of(slot, now_);
-  const double speed =
-      std::abs(static_cast<double>(v.x.hi)) + std::abs(static_cast<double>(v.y.hi));
+  const double speed = std::abs(static_cast<double>(v.x.hi)) +
+                       std::abs(static_cast<double>(v.y.hi)) + growth_of(slot);
   return std::max(speed * kShortestCrossing, static_cast<double>(at(slot).radius) * kPartOfRadius);
 }
 
@@ -322,6 +347,7 @@ void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
   const Role role = at(slot).is_wall()      ? Role::Wall
                     : at(slot).is_dynamic() ? Role::DynamicDisk
                                             : Role::FixedDisk;
+  if constexpr (Laws::kGrows) at(slot).boxed_radius = radius_now(slot);
   neighbours_.renew(slot,
                     role,
                     tight_box(slot),

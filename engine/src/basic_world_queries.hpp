@@ -40,7 +40,7 @@ BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {
   state.instant = to_instant(now_);
   state.position = detail::rounded(position_of(slot, now_));
   state.velocity = detail::rounded(velocity_of(slot, now_));
-  state.radius = static_cast<double>(body.radius);
+  state.radius = radius_now(slot);
   if (!Laws::kPlain || !rotations_.empty()) {
     const Rotation rotation = rotation_of(slot);
     state.angle =
@@ -273,9 +273,19 @@ Outcome<MotionRecord> BasicWorld<S, Laws>::motion(Id id) const {
   const Rotation rotation = rotation_of(found->second);
   record.angle = rotation.angle;
   record.spin = rotation.spin;
+  const bool is_pulled = Laws::kCurved && (!Laws::kDragged || at(found->second).is_dynamic());
   if constexpr (Laws::kCurved) {
-    record.ax = to_split(at(found->second).acceleration.x);
-    record.ay = to_split(at(found->second).acceleration.y);
+    if (is_pulled) {
+      record.ax = to_split(at(found->second).acceleration.x);
+      record.ay = to_split(at(found->second).acceleration.y);
+    }
+  }
+  if constexpr (Laws::kDragged) {
+    if (is_pulled) record.drag = static_cast<double>(laws_.drag);
+  }
+  if constexpr (Laws::kGrows) {
+    record.radius = to_split(at(found->second).grown);
+    record.growth = growth_of(found->second);
   }
   return record;
 }
@@ -293,7 +303,7 @@ Outcome<BodyRecord> BasicWorld<S, Laws>::body(Id id) const {
     record.edge_y = to_split(shape(found->second).edge.y);
   } else {
     record.kind = kind_of(b.type);
-    record.radius = static_cast<double>(b.radius);
+    record.radius = radius_now(found->second);
     record.mass = static_cast<double>(b.mass);
   }
   return record;

@@ -46,8 +46,8 @@ bool BasicWorld<S, Laws>::is_last_bounce(const Contact& contact,
   if (!(elastic.approach_speed * restitution <= laws_.rest_speed)) return false;
   const Vector2 normal(static_cast<double>(elastic.normal_x),
                        static_cast<double>(elastic.normal_y));
-  const Vector2 down = detail::rounded(laws_.gravity);
   const bool a_falls = at(contact.a).is_dynamic();
+  const Vector2 down = detail::rounded(pull_towards(a_falls ? contact.b : contact.a));
   if (!((a_falls ? down.dot(normal) : -down.dot(normal)) > 0)) return false;
   return contact.kind == EventKind::DiskWall || finds_hold(contact).has_value();
 }
@@ -61,7 +61,8 @@ S BasicWorld<S, Laws>::hop_speed(const Contact& contact,
   const Vector2 pull = detail::rounded(at(contact.b).acceleration - at(contact.a).acceleration);
   const Vector2 normal(static_cast<double>(elastic.normal_x),
                        static_cast<double>(elastic.normal_y));
-  const double pressed = -pull.dot(normal) / detail::rounded(laws_.gravity).norm();
+  const double strength = Laws::kDragged ? pull.norm() : detail::rounded(laws_.gravity).norm();
+  const double pressed = -pull.dot(normal) / strength;
   if (!(pressed > 0)) return S(0);
   const S speed = laws_.hop_speed * S(pressed);
   return elastic.approach_speed * restitution < speed ? speed : S(0);
@@ -77,7 +78,7 @@ std::optional<Id> BasicWorld<S, Laws>::finds_hold(const Contact& contact) const 
   const Slot first = a_falls ? contact.b : contact.a;
   const DoubleWord2<S> slip = velocity_of(disk, now_) - velocity_of(first, now_);
   if (!(detail::sum_norm(slip) <= S(2) * laws_.rest_speed)) return std::nullopt;
-  const Vector2 down = detail::rounded(laws_.gravity);
+  const Vector2 down = detail::rounded(pull_towards(first));
   const Vector2 up_from_first = -normal_towards(disk, first);
   if (contact.kind != EventKind::DiskWall && holds_up(down, up_from_first, up_from_first)) {
     return kNoId;
@@ -113,15 +114,20 @@ void BasicWorld<S, Laws>::settle_down(const Contact& contact) {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_rest(Slot slot) {
   Body<S, Laws>& body = at(slot);
-  body.acceleration = {};
+  const Slot support = slots_.at(body.support);
+  body.acceleration = wind_on(support);
   if (body.second_support != kNoId) return;
-  const Slot wall = slots_.at(body.support);
-  const DoubleWord2<S>& edge = shape(wall).edge;
-  body.acceleration = pull_along(laws_.gravity, edge);
-  body.moves_for = slide_lasts(body.motion.position - position_of(wall, body.motion.since),
-                               body.motion.velocity - velocity_of(wall, body.motion.since),
-                               body.acceleration,
-                               edge);
+  const DoubleWord2<S>& edge = shape(support).edge;
+  const DoubleWord2<S> pull = pull_along(pull_towards(support), edge);
+  const DoubleWord2<S> from_start = body.motion.position - position_of(support, body.motion.since);
+  const DoubleWord2<S> slip = body.motion.velocity - velocity_of(support, body.motion.since);
+  if constexpr (Laws::kDragged) {
+    body.acceleration = body.acceleration + pull;
+    body.moves_for = slide_under_drag_lasts(from_start, slip, pull, edge, laws_.drag);
+  } else {
+    body.acceleration = pull;
+    body.moves_for = slide_lasts(from_start, slip, pull, edge);
+  }
 }
 
 /// Do bytes name supports that there are, and that can be some?

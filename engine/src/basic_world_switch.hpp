@@ -21,13 +21,21 @@ inline double deceleration_of(const Effects& effects) {
   return effects.floor_friction ? effects.floor_friction->deceleration : 0;
 }
 
+inline double drag_of(const Effects& effects) { return effects.drag ? effects.drag->rate : 0; }
+
+inline double growth_of(const Effects& effects) {
+  return effects.growth ? effects.growth->rate : 0;
+}
+
 }  // namespace detail
 
 /// Would the body move on by another law?
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::law_differs(Slot slot, const Effects& wanted) const {
-  if (!at(slot).is_dynamic()) return false;
   const Effects present = effects();
+  if (detail::growth_of(present) != detail::growth_of(wanted)) return !at(slot).is_wall();
+  if (!at(slot).is_dynamic()) return false;
+  if (detail::drag_of(present) != detail::drag_of(wanted)) return true;
   if (detail::gravity_of(present) != detail::gravity_of(wanted)) return true;
   if (detail::deceleration_of(present) == detail::deceleration_of(wanted)) return false;
   const DoubleWord2<S> v = velocity_of(slot, now_);

@@ -15,8 +15,16 @@ std::unique_ptr<WorldCore> make_plain_core(const WorldOptions& options) {
 
 template <class S>
 std::unique_ptr<WorldCore> make_effects_core(const WorldOptions& options) {
-  if (laws_for(options.effects) == LawsKind::Accelerated) {
-    return std::make_unique<BasicWorld<S, AcceleratedLaws>>(options);
+  switch (laws_for(options.effects)) {
+    case LawsKind::Growing:
+      return std::make_unique<BasicWorld<S, GrowingLaws>>(options);
+    case LawsKind::Dragged:
+      return std::make_unique<BasicWorld<S, DragLaws>>(options);
+    case LawsKind::Accelerated:
+      return std::make_unique<BasicWorld<S, AcceleratedLaws>>(options);
+    case LawsKind::Plain:
+    case LawsKind::Contact:
+      break;
   }
   return std::make_unique<BasicWorld<S, ContactLaws>>(options);
 }

@@ -35,6 +35,25 @@ std::optional<Reject> check_range(const EffectParameter& parameter, const Effect
   return std::nullopt;
 }
 
+// Chosen: under drag no flight to the end of time leaves the range of the kernels, 2^150.
+constexpr double kDragMin = 1e-12;       // 1/s
+constexpr double kPullUnderDrag = 1e12;  // m/s^2
+
+std::optional<Reject> check_drag(const Effects& effects) {
+  if (!effects.drag || effects.drag->rate == 0) return std::nullopt;
+  if (effects.drag->rate < kDragMin) {
+    return Reject{.code = Code::InvalidArgument,
+                  .field = "drag.rate",
+                  .reason = "must be 0 or at least " + shown(kDragMin) + " 1/s"};
+  }
+  if (effects.gravity && effects.gravity->acceleration.cwiseAbs().maxCoeff() > kPullUnderDrag) {
+    return Reject{.code = Code::InvalidArgument,
+                  .field = "gravity.acceleration",
+                  .reason = "must be at most " + shown(kPullUnderDrag) + " m/s^2 under drag"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Reject> check_effects(const Effects& effects) {
@@ -52,10 +71,12 @@ std::optional<Reject> check_effects(const Effects& effects) {
                     .reason = std::string(refusal->reason)};
     }
   }
-  if (effects.restitution && effects.restitution->rest_speed > 0 && !effects.gravity) {
+  if (auto reject = check_drag(effects)) return reject;
+  if (effects.restitution && effects.restitution->rest_speed > 0 && !effects.gravity &&
+      !effects.drag) {
     return Reject{.code = Code::Unimplemented,
                   .field = "restitution.rest_speed",
-                  .reason = "nothing comes to rest without gravity"};
+                  .reason = "nothing comes to rest without gravity or drag"};
   }
   return std::nullopt;
 }

@@ -34,6 +34,8 @@ void for_each_effect(AnyEffects& effects, const Visit& visit) {
   visit(1, effects.rough, &Rough::tangential_restitution, &Rough::friction);
   visit(2, effects.gravity, &Gravity::acceleration);
   visit(3, effects.floor_friction, &FloorFriction::deceleration);
+  visit(4, effects.drag, &Drag::rate);
+  visit(5, effects.growth, &Growth::rate);
   visit(6, effects.thermostat, &Thermostat::temperature, &Thermostat::rate, &Thermostat::seed);
 }
 
@@ -60,7 +62,7 @@ inline void read_number(ByteSource& source, Vector2& v) {
 }
 
 inline constexpr int kFirstEffectBit = 8;
-inline constexpr std::uint64_t kEffectBits = 0b1001111;
+inline constexpr std::uint64_t kEffectBits = 0b1111111;
 
 }  // namespace detail
 

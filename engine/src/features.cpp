@@ -15,6 +15,10 @@ constexpr double kPullMax = 1e100;
 constexpr double kTemperatureMax = 1e25;
 /// 1/s; chosen: waits stay far above the resolution of an Instant.
 constexpr double kKickRateMax = 1e9;
+/// 1/s; chosen: with the least one, see effects.cpp.
+constexpr double kDragMax = 1e12;
+/// m/s; chosen: no disk outgrows the range of float before the end of time.
+constexpr double kGrowthMax = 1e12;
 /// Whole numbers up to here are exact in a double.
 constexpr double kWholeMax = 9007199254740992;
 
@@ -57,10 +61,12 @@ constexpr EffectParameter number(EffectParameter row) {
 
 constexpr std::array kEffects = {
     effect<&Effects::gravity>("gravity", "uniform gravity on dynamic disks"),
+    effect<&Effects::drag>("drag", "linear drag on dynamic disks by a medium at rest"),
     effect<&Effects::floor_friction>("floor_friction",
                                      "a constant deceleration of dynamic disks to a stop"),
     effect<&Effects::restitution>("restitution", "contacts that lose energy"),
     effect<&Effects::rough>("rough", "contacts that turn disks"),
+    effect<&Effects::growth>("growth", "radii that grow, of disks of all kinds"),
     effect<&Effects::thermostat>("thermostat", "random kicks that hold a temperature"),
 };
 
@@ -72,6 +78,11 @@ constexpr std::array kParameters = {
                                                        .low = -kPullMax,
                                                        .high = kPullMax,
                                                        .components = 2}),
+    number<&Effects::drag, &Drag::rate>({.effect = "drag",
+                                         .name = "rate",
+                                         .unit = "1/s",
+                                         .meaning = "velocities fall as e^(-rate t); 0: none does",
+                                         .high = kDragMax}),
     number<&Effects::floor_friction, &FloorFriction::deceleration>({.effect = "floor_friction",
                                                                     .name = "deceleration",
                                                                     .unit = "m/s^2",
@@ -101,7 +112,7 @@ constexpr std::array kParameters = {
         {.effect = "restitution",
          .name = "rest_speed",
          .unit = "m/s",
-         .meaning = "under gravity a slower bounce is none; 0: 1e-9",
+         .meaning = "under gravity or drag a slower bounce is none; 0: 1e-9",
          .high = kAnyNumber,
          .is_required = false}),
     number<&Effects::rough, &Rough::tangential_restitution>(
@@ -116,6 +127,11 @@ constexpr std::array kParameters = {
                                                .unit = "1",
                                                .meaning = "tangential over normal impulse, at most",
                                                .high = kAnyNumber}),
+    number<&Effects::growth, &Growth::rate>({.effect = "growth",
+                                             .name = "rate",
+                                             .unit = "m/s",
+                                             .meaning = "of every radius",
+                                             .high = kGrowthMax}),
     number<&Effects::thermostat, &Thermostat::temperature>({.effect = "thermostat",
                                                             .name = "temperature",
                                                             .unit = "J",
@@ -137,10 +153,15 @@ constexpr std::array kParameters = {
 };
 
 constexpr std::array kRefusals = {
+    Refusal{"drag", "floor_friction", "together with floor friction has no closed form"},
     Refusal{"floor_friction", "gravity", "together with gravity in the plane has no closed form"},
     Refusal{"rough",
             "gravity",
             "a rough disk that gravity holds on a wall would roll, which has no treatment yet"},
+    Refusal{"growth", "gravity", "together with gravity has no exact treatment yet"},
+    Refusal{"growth", "drag", "together with drag has no exact treatment yet"},
+    Refusal{"growth", "floor_friction", "together with floor friction has no exact treatment yet"},
+    Refusal{"growth", "rough", "of rough disks would change their moments of inertia"},
 };
 
 std::string full_name(const EffectParameter& parameter, int component) {

@@ -6,12 +6,16 @@
 // nothing asks which.
 //
 // A kind says: what a body holds on its behalf (BodyPart), what it is set to (Settings), how two
-// bodies move relative to each other (Relative), and which kernels find their contacts.
+// bodies move relative to each other (Relative), how far from each other they touch (Radius,
+// Reach), and which kernels find their contacts.
 
 #include "contact_time/accelerated_disk_disk.hpp"
 #include "contact_time/accelerated_disk_wall.hpp"
 #include "contact_time/disk_disk.hpp"
 #include "contact_time/disk_wall.hpp"
+#include "contact_time/drag_curve.hpp"
+#include "contact_time/drag_face.hpp"
+#include "contact_time/growing.hpp"
 
 #include <stoss/engine/effects.hpp>
 #include <stoss/engine/instant.hpp>
@@ -21,11 +25,13 @@
 namespace stoss::engine {
 
 /// Named after the laws below.
-enum class LawsKind { Plain, Contact, Accelerated };
+enum class LawsKind { Plain, Contact, Growing, Accelerated, Dragged };
 
 /// The least that has all these effects.
 inline LawsKind laws_for(const Effects& effects) {
   if (effects == Effects{}) return LawsKind::Plain;
+  if (effects.growth) return LawsKind::Growing;
+  if (effects.drag && effects.drag->rate > 0) return LawsKind::Dragged;
   if (effects.gravity || effects.floor_friction) return LawsKind::Accelerated;
   return LawsKind::Contact;
 }
@@ -33,8 +39,14 @@ inline LawsKind laws_for(const Effects& effects) {
 /// Contacts of bodies in uniform motion; what they are asked to do "within" is for ever.
 struct UniformMotion {
   static constexpr bool kCurved = false;
+  static constexpr bool kDragged = false;
+  static constexpr bool kGrows = false;
   template <class S>
   using Relative = RelativeMotion<S>;
+  template <class S>
+  using Radius = S;
+  template <class S>
+  using Reach = DoubleWord<S>;
 
   template <class S>
   static auto pair_contact(const RelativeMotion<S>& motion, const DoubleWord<S>& reach, const S&) {
@@ -56,8 +68,14 @@ struct UniformMotion {
 /// Contacts of bodies in uniformly accelerated motion, `within` so many seconds.
 struct AcceleratedMotions {
   static constexpr bool kCurved = true;
+  static constexpr bool kDragged = false;
+  static constexpr bool kGrows = false;
   template <class S>
   using Relative = AcceleratedMotion<S>;
+  template <class S>
+  using Radius = S;
+  template <class S>
+  using Reach = DoubleWord<S>;
 
   template <class S>
   static auto pair_contact(const AcceleratedMotion<S>& motion,
@@ -75,6 +93,70 @@ struct AcceleratedMotions {
   template <class S>
   static auto point_contact(const AcceleratedMotion<S>& motion, const S& radius, const S& within) {
     return accelerated_point_contact<S>(motion, radius, within);
+  }
+};
+
+/// Contacts of bodies under linear drag, `within` so many seconds.
+struct DraggedMotions {
+  static constexpr bool kCurved = true;
+  static constexpr bool kDragged = true;
+  static constexpr bool kGrows = false;
+  template <class S>
+  using Relative = DragMotion<S>;
+  template <class S>
+  using Radius = S;
+  template <class S>
+  using Reach = DoubleWord<S>;
+
+  template <class S>
+  static auto pair_contact(const DragMotion<S>& motion,
+                           const DoubleWord<S>& reach,
+                           const S& within) {
+    return drag_curve_contact<S>(motion, reach, motion.rate, within);
+  }
+  template <class S>
+  static auto face_contact(const DragMotion<S>& motion,
+                           const DoubleWord2<S>& edge,
+                           const S& radius,
+                           const S& within) {
+    return drag_face_contact<S>(motion, edge, radius, motion.rate, within);
+  }
+  template <class S>
+  static auto point_contact(const DragMotion<S>& motion, const S& radius, const S& within) {
+    return drag_curve_contact<S>(motion, {radius, S(0)}, motion.rate, within);
+  }
+};
+
+/// Contacts of disks in uniform motion whose radii grow.
+struct GrowingDisks {
+  static constexpr bool kCurved = false;
+  static constexpr bool kDragged = false;
+  static constexpr bool kGrows = true;
+  template <class S>
+  using Relative = RelativeMotion<S>;
+  template <class S>
+  using Radius = DoubleWord<S>;
+  template <class S>
+  using Reach = GrowingReach<S>;
+
+  template <class S>
+  static auto pair_contact(const RelativeMotion<S>& motion,
+                           const GrowingReach<S>& reach,
+                           const S&) {
+    return growing_disk_contact<S>(motion, reach);
+  }
+  template <class S>
+  static auto face_contact(const RelativeMotion<S>& motion,
+                           const DoubleWord2<S>& edge,
+                           const GrowingReach<S>& radius,
+                           const S&) {
+    return growing_face_contact<S>(motion, edge, radius);
+  }
+  template <class S>
+  static auto point_contact(const RelativeMotion<S>& motion,
+                            const GrowingReach<S>& radius,
+                            const S&) {
+    return growing_disk_contact<S>(motion, radius);
   }
 };
 
@@ -124,6 +206,24 @@ struct ContactLaws : UniformMotion {
   };
 };
 
+/// Uniform motion; disks that grow, and contacts that may lose energy.
+struct GrowingLaws : GrowingDisks {
+  static constexpr bool kPlain = false;
+
+  template <class S>
+  struct BodyPart : ContactLaws::BodyPart<S> {
+    DoubleWord<S> grown;      ///< the radius at the motion's `since`, m; 0 for a wall
+    double boxed_radius = 0;  ///< when the body's box was made, m; of no result
+  };
+
+  template <class S>
+  struct Settings : ContactLaws::Settings<S> {
+    explicit Settings(const Effects& effects)
+        : ContactLaws::Settings<S>(effects), growth(S(effects.growth->rate)) {}
+    S growth;  ///< m/s
+  };
+};
+
 /// Uniform gravity, or friction with the floor; any contacts.
 struct AcceleratedLaws : AcceleratedMotions {
   /// Where a scene names none. Chosen: a bounce of 5e-20 m in ordinary gravity.
@@ -157,6 +257,22 @@ struct AcceleratedLaws : AcceleratedMotions {
     S deceleration{};                 ///< m/s^2
     S rest_speed = S(kRestSpeedMps);  ///< m/s
     S hop_speed{};                    ///< m/s; 0: no least bounce
+  };
+};
+
+/// Linear drag, with gravity or without; any contacts. The acceleration of a body is here what
+/// pulls at it besides the drag: m V for one that keeps its velocity V.
+struct DragLaws : DraggedMotions {
+  static constexpr bool kPlain = false;
+
+  template <class S>
+  using BodyPart = AcceleratedLaws::BodyPart<S>;
+
+  template <class S>
+  struct Settings : AcceleratedLaws::Settings<S> {
+    explicit Settings(const Effects& effects)
+        : AcceleratedLaws::Settings<S>(effects), drag(S(effects.drag->rate)) {}
+    S drag;  ///< 1/s, > 0
   };
 };
 

@@ -14,6 +14,7 @@
 // Accuracy: the relative slack below is a million times the rounding of the terms that it covers.
 
 #include "body.hpp"
+#include "motion_law/drag.hpp"
 
 #include <stoss/engine/instant.hpp>
 
@@ -79,6 +80,42 @@ Glance glance(const Motion<S>& motion, const Time<S>& now) {
   g.error = kFlightSlack<S> * (std::abs(flown_x) + std::abs(flown_y)) + kClock * speed;
   return g;
 }
+
+/// The same under drag, with what pulls besides.
+template <class S>
+Glance dragged_glance(const Motion<S>& motion,
+                      const DoubleWord2<S>& pull,
+                      double rate,
+                      const Time<S>& now) {
+  Glance g;
+  const detail::RoughDragClock clock =
+      detail::rough_drag_clock(rough_seconds(now, motion.since), rate);
+  const auto fly = [&](const DoubleWord<S>& p, const DoubleWord<S>& v, const DoubleWord<S>& a) {
+    const double speed = static_cast<double>(v.hi) + static_cast<double>(v.lo);
+    const double gained = static_cast<double>(a.hi) * clock.run;
+    const double flown = speed * clock.run;
+    const double fallen = static_cast<double>(a.hi) * clock.fall;
+    g.error += 4 * kFlightSlack<S> * (std::abs(flown) + std::abs(fallen)) +
+               kClock * (std::abs(speed) + std::abs(gained)) +
+               1e-16 * std::abs(static_cast<double>(p.lo));
+    struct Axis {
+      double low, v;
+    };
+    return Axis{static_cast<double>(p.lo) + flown + fallen, speed * clock.left + gained};
+  };
+  const auto x = fly(motion.position.x, motion.velocity.x, pull.x);
+  const auto y = fly(motion.position.y, motion.velocity.y, pull.y);
+  g.x = static_cast<double>(motion.position.x.hi);
+  g.y = static_cast<double>(motion.position.y.hi);
+  g.x_low = x.low;
+  g.y_low = y.low;
+  g.vx = x.v;
+  g.vy = y.v;
+  return g;
+}
+
+/// No motion under drag goes further than that of this many times 1 / m, a little more than 1.
+inline constexpr double kLastOfDrag = 1 + 1e-6;
 
 /// Are the centres closer than `reach`, or may rounding hide that they are?
 inline bool disks_are_within(const Glance& a, const Glance& b, double reach, double slack) {

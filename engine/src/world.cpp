@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effects_bytes.hpp"
 #include "motion_law/accelerated.hpp"
+#include "motion_law/drag.hpp"
+#include "motion_law/growth.hpp"
 #include "world_core.hpp"
 
 #include <stoss/engine/motion.hpp>
@@ -157,13 +159,31 @@ DoubleWord2<S> acceleration_of(const MotionRecord& record) {
 }
 
 template <class S>
+Flight<S> flight_in(const MotionRecord& record, const Instant& instant) {
+  return flight_at(from_record<S>(record),
+                   acceleration_of<S>(record),
+                   static_cast<S>(record.drag),
+                   from_instant<Time<S>>(instant));
+}
+
+template <class S>
 Vector2 position_in(const MotionRecord& record, const Instant& instant) {
+  if (record.drag > 0) return detail::rounded(flight_in<S>(record, instant).position);
   return detail::rounded(position_at(from_record<S>(record), acceleration_of<S>(record), instant));
 }
 
 template <class S>
 Vector2 velocity_in(const MotionRecord& record, const Instant& instant) {
+  if (record.drag > 0) return detail::rounded(flight_in<S>(record, instant).velocity);
   return detail::rounded(velocity_at(from_record<S>(record), acceleration_of<S>(record), instant));
+}
+
+template <class S>
+double radius_in(const MotionRecord& record, const Instant& instant) {
+  return static_cast<double>(to_scalar(grown_by(from_split<S>(record.radius),
+                                                static_cast<S>(record.growth),
+                                                from_instant<Time<S>>(record.since),
+                                                from_instant<Time<S>>(instant))));
 }
 
 }  // namespace
@@ -180,6 +200,15 @@ Vector2 evaluate_velocity(const MotionRecord& motion,
                           const Instant& instant) {
   return arithmetic == Arithmetic::Float ? velocity_in<float>(motion, instant)
                                          : velocity_in<double>(motion, instant);
+}
+
+double evaluate_radius(const MotionRecord& motion,
+                       const BodyRecord& body,
+                       Arithmetic arithmetic,
+                       const Instant& instant) {
+  if (motion.radius.high == 0) return body.radius;
+  return arithmetic == Arithmetic::Float ? radius_in<float>(motion, instant)
+                                         : radius_in<double>(motion, instant);
 }
 
 double turned(double angle, double spin, const Instant& since, const Instant& instant) {

@@ -115,7 +115,7 @@ engine::BodyState Picture::state_of(const Body& body) const {
           .velocity = engine::evaluate_velocity(motion, arithmetic_, moment_.at),
           .angle = engine::turned(motion.angle, motion.spin, motion.since, moment_.at),
           .spin = motion.spin,
-          .radius = body.record.radius};
+          .radius = engine::evaluate_radius(motion, body.record, arithmetic_, moment_.at)};
 }
 
 engine::WallState Picture::wall_of(const Body& body) const {

@@ -78,6 +78,8 @@ std::string run_gravity_corner(const Case& c);
 std::string run_bounce_series(const Case& c);
 std::string run_resting(const Case& c);
 std::string run_friction_pair(const Case& c);
+std::string run_growing_pair(const Case& c);
+std::string run_drag_pair(const Case& c);
 
 /// Seconds between two instants, exactly.
 inline Real seconds_from(const engine::Instant& start, const engine::Instant& t) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gravity, rest and floor friction.
+// Gravity, rest, floor friction, growth and drag.
 
 #include "hard_cases/case.hpp"
 
@@ -8,6 +8,7 @@ namespace stoss::hard_cases {
 namespace {
 
 using engine::Collision;
+using engine::Instant;
 using engine::Vector2;
 using engine::WallSpec;
 using engine::World;
@@ -115,6 +116,48 @@ std::string run_friction_pair(const Case& c) {
     const Real2 truth = Case::real2(places.at(i));
     EXPECT_LE(norm({Real(place.x()) - truth.x, Real(place.y()) - truth.y}), Real(1e-15));
   }
+  return "";
+}
+
+// The reach and its growth are of both disks: each has half of them.
+std::string run_growing_pair(const Case& c) {
+  engine::Effects effects;
+  effects.growth = engine::Growth{c.number("growth") / 2};
+  World world(engine::WorldOptions{.start = {}, .effects = effects});
+  const double radius = c.number("d0") / 2;
+  test::must_spawn(
+      world,
+      {test::disk(1, {0, 0}, {0, 0}, radius), test::disk(2, c.vector("p"), c.vector("v"), radius)});
+  const Real when = Case::real(c.expected().at("t"));
+  const auto log = test::run_for(world, when.convert_to<double>() * (1 + 1e-12));
+  EXPECT_TRUE(c.expected().at("event").get<bool>());
+  EXPECT_EQ(log.size(), 1U);
+  if (log.empty()) return "";
+  expect_time(c, {}, log[0].instant);
+  const Real reach = Real(test::state(world, 1).radius) + Real(test::state(world, 2).radius);
+  const Real truth = Case::real(c.expected().at("contact_distance"));
+  EXPECT_LE(abs(reach - truth), truth * Real(1e-11));
+  return "";
+}
+
+std::string run_drag_pair(const Case& c) {
+  engine::Effects effects;
+  effects.drag = engine::Drag{c.number("gamma")};
+  World world(engine::WorldOptions{.start = {}, .effects = effects});
+  const double radius = c.number("d") / 2;
+  test::must_spawn(
+      world,
+      {test::disk(1, {0, 0}, {0, 0}, radius), test::disk(2, c.vector("p"), c.vector("v"), radius)});
+  const bool event = c.expected().at("event").get<bool>();
+  const Instant end{event ? 100 : engine::kSecondsMax - 1, 0};
+  const auto log = test::run_until(world, end);
+  EXPECT_EQ(log.empty(), !event);
+  if (!event || log.empty()) return "";
+  expect_time(c, {}, log[0].instant);
+  const Real2 speed = Case::real2(c.expected().at("v_at_contact"));
+  // Of equal masses: what they have together at the contact, they have after it.
+  const Vector2 together = log[0].velocity_a + log[0].velocity_b;
+  EXPECT_LE(norm({Real(together.x()) - speed.x, Real(together.y()) - speed.y}), Real(1e-15));
   return "";
 }
 

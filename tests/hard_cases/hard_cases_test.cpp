@@ -57,10 +57,11 @@ const std::map<std::string, std::string (*)(const Case&)> kRunners = {
     {"gravity_corner", run_gravity_corner},
     {"bounce_series", run_bounce_series},
     {"resting", run_resting},
-    {"friction_pair", run_friction_pair}};
+    {"friction_pair", run_friction_pair},
+    {"growing_pair", run_growing_pair},
+    {"drag_pair", run_drag_pair}};
 
-const std::map<std::string, std::string> kNeeds = {
-    {"inside_circle", "arcs"}, {"growing_pair", "growing disks"}, {"drag_pair", "drag"}};
+const std::map<std::string, std::string> kNeeds = {{"inside_circle", "arcs"}};
 
 class HardCase : public testing::TestWithParam<Case> {};
 

@@ -6,11 +6,12 @@
 #include <stoss/idl/scene_file.hpp>
 #include <stoss/translate/basics.hpp>
 
+#include <utility>
 #include <variant>
 
 namespace stoss::client::cli {
 
-translate::SceneBodies scene_bodies(const std::string& path) {
+Scene scene_in(const std::string& path) {
   auto loaded = idl::load_scene(path);
   if (const auto* error = std::get_if<idl::SceneError>(&loaded)) {
     throw RefusedError(
@@ -18,7 +19,11 @@ translate::SceneBodies scene_bodies(const std::string& path) {
          .field = {},
          .reason = error->message()});
   }
-  return value_or_refuse(translate::bodies_of(std::get<Scene>(loaded)));
+  return std::get<Scene>(std::move(loaded));
+}
+
+translate::SceneBodies scene_bodies(const std::string& path) {
+  return value_or_refuse(translate::bodies_of(scene_in(path)));
 }
 
 void refuse_effects(const translate::SceneBodies& bodies, const std::string& who) {

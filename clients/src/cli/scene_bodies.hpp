@@ -7,6 +7,9 @@
 
 namespace stoss::client::cli {
 
+/// A scene file as it is. Throws RefusedError, which names the file, the field and the body.
+[[nodiscard]] Scene scene_in(const std::string& path);
+
 /// Reads a scene file. Throws RefusedError, which names the file, the field and the body.
 [[nodiscard]] translate::SceneBodies scene_bodies(const std::string& path);
 

@@ -4,6 +4,7 @@
 #include "baseline/fixed_step.hpp"
 #include "cli/exit_code.hpp"
 #include "cli/log_file.hpp"
+#include "cli/save_scene.hpp"
 #include "cli/scene_bodies.hpp"
 #include "cli/simulate_log.hpp"
 #include "cli/simulate_report.hpp"
@@ -53,11 +54,12 @@ void advance(engine::World& world, const Instant& until, CollisionLog* log, std:
   }
 }
 
-/// In ticks, when a rate is given; they change nothing but how often the world returns.
-void advance_in_ticks(engine::World& world,
-                      const SimulateOptions& options,
-                      const Instant& end,
-                      CollisionLog& log) {
+/// In ticks, when a rate is given; they change nothing but how often the world returns. A world
+/// that stalls on the way stays where it is, and says why.
+std::optional<RefusedError> advance_in_ticks(engine::World& world,
+                                             const SimulateOptions& options,
+                                             const Instant& end,
+                                             CollisionLog& log) try {
   if (options.tick_rate) {
     const auto clock = engine::TickClock::from_rate(world.now(), *options.tick_rate);
     if (!clock) throw UsageError("--tick-rate: must be a positive number of hertz");
@@ -71,6 +73,9 @@ void advance_in_ticks(engine::World& world,
   if (world.counters().collisions < options.max_collisions) {
     advance(world, end, &log, options.max_collisions);
   }
+  return std::nullopt;
+} catch (const RefusedError& stall) {
+  return stall;
 }
 
 void write_states(const SimulateOptions& options,
@@ -99,9 +104,9 @@ class Stopwatch {
 void simulate_exactly(const SimulateOptions& options,
                       const translate::SceneBodies& bodies,
                       CollisionLog& log) {
-  engine::World world =
-      value_or_refuse(translate::make_world(bodies, {options.arithmetic, options.broad_phase}))
-          .world;
+  translate::SceneWorld made =
+      value_or_refuse(translate::make_world(bodies, {options.arithmetic, options.broad_phase}));
+  engine::World& world = made.world;
   const Instant end = end_of(options, world.now());
   SimulateReport report{.at_start = world.conserved()};
   if (log.verifier()) log.verifier()->begin(world);
@@ -109,11 +114,11 @@ void simulate_exactly(const SimulateOptions& options,
   std::optional<engine::World> beginning;
   if (!options.until) beginning = world;
   const Stopwatch stopwatch;
-  advance_in_ticks(world, options, end, log);
+  const std::optional<RefusedError> stall = advance_in_ticks(world, options, end, log);
   log.finish();
   report.wall_seconds = stopwatch.seconds();
   if (log.verifier()) log.verifier()->check(world);  // a short run is checked, too
-  if (beginning && world.counters().collisions < options.max_collisions) {
+  if (beginning && !stall && world.counters().collisions < options.max_collisions) {
     // Back to the last collision there was: the end of time is no place to tell states of.
     const std::uint64_t last = world.counters().collisions;
     world = std::move(*beginning);
@@ -126,7 +131,9 @@ void simulate_exactly(const SimulateOptions& options,
   report.events = log.events();
   report.state_hash = world.state_hash();
   write_states(options, [&world](const auto& visit) { world.for_each_disk(visit); });
+  if (options.save_scene) save_scene(options.scene, *options.save_scene, world, made.ids);
   print_report(options, report, log);
+  if (stall) throw RefusedError(*stall);
   if (log.verifier() && !engine::is_healthy(log.verifier()->found(), options.arithmetic)) {
     throw RefusedError({.code = engine::Code::Internal,
                         .field = {},

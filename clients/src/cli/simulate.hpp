@@ -17,6 +17,7 @@ struct SimulateOptions {
   std::optional<double> tick_rate;        ///< Hz
   std::optional<std::string> collisions;  ///< where the log goes
   std::optional<std::string> states;      ///< where the final states go
+  std::optional<std::string> save_scene;  ///< where the end goes, as a scene
   engine::Arithmetic arithmetic = engine::Arithmetic::Double;
   engine::BroadPhaseKind broad_phase = engine::BroadPhaseKind::Neighbours;
   std::optional<double> step;  ///< s; set: the stepped baseline

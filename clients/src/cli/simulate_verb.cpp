@@ -19,6 +19,7 @@ struct SimulateTexts {
   std::string tick_rate;
   std::string collisions;
   std::string states;
+  std::string save_scene;
   std::string scalar = "double";
   std::string broad_phase = "neighbours";
   std::string method = "exact";
@@ -72,6 +73,9 @@ void read_method(const SimulateTexts& texts, SimulateOptions& options) {
     throw UsageError("--method: must be exact or fixed-step");
   }
   const bool stepped = texts.method == "fixed-step";
+  if (stepped && options.save_scene) {
+    throw UsageError("--save-scene: of the exact method alone");
+  }
   if (stepped && texts.step.empty()) throw UsageError("--method fixed-step needs --step");
   if (!stepped && !texts.step.empty()) throw UsageError("--step is for --method fixed-step");
   if (stepped && options.verify != 0) throw UsageError("--verify is for --method exact");
@@ -85,6 +89,7 @@ SimulateOptions options_of(const SimulateTexts& texts, bool json) {
   if (!texts.tick_rate.empty()) options.tick_rate = positive("--tick-rate", texts.tick_rate);
   if (!texts.collisions.empty()) options.collisions = texts.collisions;
   if (!texts.states.empty()) options.states = texts.states;
+  if (!texts.save_scene.empty()) options.save_scene = texts.save_scene;
   options.arithmetic = arithmetic_named(texts.scalar);
   options.broad_phase = broad_phase_named(texts.broad_phase);
   if (!texts.max_collisions.empty()) {
@@ -117,6 +122,10 @@ void add_simulate_verb(CLI::App& app, Invocation& invocation) {
                    "Write the collisions as JSON Lines to this file; -: standard output");
   verb->add_option(
       "--states", texts->states, "Write the final states of all disks as JSON Lines to this file");
+  verb->add_option(
+      "--save-scene",
+      texts->save_scene,
+      "Write the end as a scene to begin with; where disks grew, without their growth");
   verb->add_option("--scalar",
                    texts->scalar,
                    "Arithmetic: float, double, long-double, double-double or float128")

@@ -24,7 +24,16 @@ namespace stoss::engine {
 
 namespace detail {
 
-/// (1) for sizes outside the range of GapCurve.
+/// (1) for sizes within kSizeMin and kSizeMax.
+template <class S>
+[[nodiscard]] inline std::optional<Duration<S>> curve_contact(const AcceleratedMotion<S>& motion,
+                                                              const DoubleWord<S>& reach,
+                                                              const S& t_max) noexcept {
+  const ParabolicGap<S> gap(motion, reach);
+  return GapSearch<S, ParabolicGap<S>>(gap).first_contact(t_max);
+}
+
+/// (1) for sizes outside this range.
 template <class S>
 [[nodiscard, gnu::noinline, gnu::cold]] inline std::optional<Duration<S>> curved_contact_shifted(
     const AcceleratedMotion<S>& motion, const DoubleWord<S>& reach, const S& t_max) noexcept {
@@ -41,7 +50,7 @@ template <class S>
     t = disk_disk_contact(straight(motion), reach);
   } else {
     const DoubleWord<S> near_reach{S(reach.hi * by.length), S(reach.lo * by.length)};
-    t = GapCurve<S>(near, near_reach).first_contact(std::numeric_limits<S>::infinity());
+    t = curve_contact(near, near_reach, std::numeric_limits<S>::infinity());
     if (t) t = checked_duration(Duration<S>{S(t->hi / by.time), S(t->lo / by.time)});
   }
   if (t && is_later(*t, t_max)) return std::nullopt;
@@ -63,7 +72,7 @@ template <class S>
   // Can the way that is left be flown at all?
   const S way = t_max * (speed + S(0.5) * t_max * pull);
   if (sum_norm(motion.position) > S(2) * (reach.hi + way)) return std::nullopt;
-  return GapCurve<S>(motion, reach).first_contact(t_max);
+  return curve_contact(motion, reach, t_max);
 }
 
 }  // namespace detail

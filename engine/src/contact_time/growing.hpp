@@ -168,15 +168,15 @@ template <class S>
 [[nodiscard]] inline std::optional<Duration<S>> growing_line_contact(
     const RelativeMotion<S>& motion,
     const DoubleWord2<S>& edge,
-    const S& radius,
-    const S& growth) noexcept {
+    const GrowingReach<S>& radius) noexcept {
   const S h = rounded_cross(edge, motion.position);
   const int side = h < S(0) ? -1 : 1;
-  const DoubleWord<S> rate = accurate_face_gap(motion.velocity, edge, growth, side);
+  const DoubleWord<S> rate = accurate_face_gap(motion.velocity, edge, radius.growth, side);
   if (!(rate.hi < S(0))) return std::nullopt;
-  const DoubleWord<S> gap = accurate_face_gap(motion.position, edge, radius, side);
+  const DoubleWord<S> gap = accurate_face_gap(motion.position, edge, radius.now, side);
   if (!(gap.hi > S(0))) {
-    const S terms = cross_terms(edge, motion.velocity) + magnitude(growth) * sum_norm(edge);
+    const S terms =
+        cross_terms(edge, motion.velocity) + magnitude(radius.growth.hi) * sum_norm(edge);
     const bool low_words = has_low_words(edge) || has_low_words(motion.velocity);
     const S feigned = feigned_rate(terms, low_words, motion.grain, sum_norm(edge));
     if (!(rate.hi < -feigned)) return std::nullopt;
@@ -184,7 +184,7 @@ template <class S>
   }
   const DoubleWord<S> t = gap / -rate;
   if (!is_finite(t.hi)) return std::nullopt;
-  if (!(radius + growth * t.hi >= S(0))) return std::nullopt;
+  if (!(radius.now.hi + radius.growth.hi * t.hi >= S(0))) return std::nullopt;
   return Duration<S>{t.hi, t.lo};
 }
 
@@ -252,32 +252,35 @@ template <class S>
 
 /// Seconds until a disk whose radius grows touches either face of the wall while approaching, (4);
 /// none if it never does. `motion`: the disk's centre seen from the wall's start; `edge`: end -
-/// start; `radius` in metres and its `growth` in metres per second.
+/// start.
 template <class S>
 [[nodiscard]] inline std::optional<Duration<S>> growing_face_contact(
-    const RelativeMotion<S>& motion, const DoubleWord2<S>& edge, S radius, S growth) noexcept {
+    const RelativeMotion<S>& motion,
+    const DoubleWord2<S>& edge,
+    const GrowingReach<S>& radius) noexcept {
   using detail::Inner;
   using Wide = Inner<S>;
-  if (growth == S(0)) return disk_wall_face_contact(motion, edge, radius);
+  if (radius.growth.hi == S(0)) return disk_wall_face_contact(motion, edge, radius.now.hi);
   const RelativeMotion<Wide> wide = detail::widened(motion);
   const DoubleWord2<Wide> wide_edge = detail::widened(edge);
+  const GrowingReach<Wide> wide_radius{detail::widened(radius.now), detail::widened(radius.growth)};
   const Wide length =
       detail::larger(detail::whole_size(wide.position), detail::whole_size(wide_edge)) +
-      Wide(radius);
-  const Wide speed = detail::whole_size(wide.velocity) + detail::magnitude(Wide(growth));
+      wide_radius.now.hi;
+  const Wide speed = detail::whole_size(wide.velocity) + detail::magnitude(wide_radius.growth.hi);
   const Wide all = length + detail::whole_size(wide_edge) + speed;
-  if (!detail::is_finite(all) || !(radius > S(0))) return std::nullopt;
+  if (!detail::is_finite(all) || !(radius.now.hi > S(0))) return std::nullopt;
   const detail::Counts by = detail::counts_into_range(length, speed);
   const RelativeMotion<Wide> near = detail::shifted_motion(wide, by.length, by.speed);
   const DoubleWord2<Wide> near_edge = detail::shifted(wide_edge, by.length);
-  const Wide near_radius = detail::shifted(Wide(radius), by.length);
-  const auto t = detail::growing_line_contact(
-      near, near_edge, near_radius, Wide(detail::shifted(Wide(growth), by.speed)));
+  const GrowingReach<Wide> near_radius{detail::shifted(wide_radius.now, by.length),
+                                       detail::shifted(wide_radius.growth, by.speed)};
+  const auto t = detail::growing_line_contact(near, near_edge, near_radius);
   if (!t || !detail::projects_within(near, near_edge, *t, detail::kMarginOfFace)) {
     return std::nullopt;
   }
   const bool is_long =
-      t->hi * detail::sum_norm(near.velocity) > Wide(detail::kLongFlight) * near_radius;
+      t->hi * detail::sum_norm(near.velocity) > Wide(detail::kLongFlight) * near_radius.now.hi;
   return detail::unshifted<S>(t, by, is_long);
 }
 

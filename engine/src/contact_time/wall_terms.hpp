@@ -46,7 +46,7 @@ template <class S>
 template <class S>
 [[nodiscard]] inline DoubleWord<S> face_gap_in_three_words(const DoubleWord2<S>& q,
                                                            const DoubleWord2<S>& edge,
-                                                           const S& m,
+                                                           const DoubleWord<S>& m,
                                                            int side) noexcept {
   const DoubleWord<S> length = sqrt(square_norm(edge));
   LongSum<S> root;
@@ -58,16 +58,24 @@ template <class S>
   LongSum<S> sum;
   sum.add_product(turned.x, q.y);
   sum.add_product(-turned.y, q.x);
-  sum.add_product(-length, DoubleWord<S>{m, S(0)});
-  sum.add(S(-m * third));
+  sum.add_product(-length, m);
+  sum.add(S(-m.hi * third));
   return sum.two_words();
+}
+
+template <class S>
+[[nodiscard]] inline DoubleWord<S> face_gap_in_three_words(const DoubleWord2<S>& q,
+                                                           const DoubleWord2<S>& edge,
+                                                           const S& m,
+                                                           int side) noexcept {
+  return face_gap_in_three_words(q, edge, DoubleWord<S>{m, S(0)}, side);
 }
 
 /// (2) in two words, of three where it cancels.
 template <class S>
 [[nodiscard]] inline DoubleWord<S> accurate_face_gap(const DoubleWord2<S>& q,
                                                      const DoubleWord2<S>& edge,
-                                                     const S& m,
+                                                     const DoubleWord<S>& m,
                                                      int side) noexcept {
   const DoubleWord<S> h = cross(edge, q);
   const DoubleWord<S> gap = (side < 0 ? -h : h) - sqrt(square_norm(edge)) * m;
@@ -75,6 +83,14 @@ template <class S>
     return face_gap_in_three_words(q, edge, m, side);
   }
   return gap;
+}
+
+template <class S>
+[[nodiscard]] inline DoubleWord<S> accurate_face_gap(const DoubleWord2<S>& q,
+                                                     const DoubleWord2<S>& edge,
+                                                     const S& m,
+                                                     int side) noexcept {
+  return accurate_face_gap(q, edge, DoubleWord<S>{m, S(0)}, side);
 }
 
 }  // namespace stoss::engine::detail

@@ -19,6 +19,7 @@
 #pragma once
 
 #include "contact_time/contact_time.hpp"
+#include "contact_time/drag_face.hpp"
 
 #include <stoss/engine/types.hpp>
 
@@ -80,6 +81,37 @@ template <class S>
   if (to_end) first = *to_end;
   if (to_start && to_start->hi < first.hi) first = *to_start;
   return first;
+}
+
+/// The same under drag at `rate` (1/s), which falls with the way along the wall.
+template <class S>
+[[nodiscard]] inline DoubleWord<S> slide_under_drag_lasts(const DoubleWord2<S>& from_start,
+                                                          const DoubleWord2<S>& velocity,
+                                                          const DoubleWord2<S>& pull,
+                                                          const DoubleWord2<S>& edge,
+                                                          const S& rate) noexcept {
+  using Wide = detail::Inner<S>;
+  const auto e = detail::widened(edge);
+  const DoubleWord<Wide> place = dot(e, detail::widened(from_start));
+  const DoubleWord<Wide> speed = dot(e, detail::widened(velocity));
+  const DoubleWord<Wide> gain = dot(e, detail::widened(pull));
+  const DoubleWord<Wide> none{Wide(0), Wide(0)};
+  const auto covered = [&](DoubleWord<Wide> ahead,
+                           const DoubleWord<Wide>& v,
+                           const DoubleWord<Wide>& a) -> std::optional<Duration<Wide>> {
+    if (!(ahead.hi > Wide(0))) {  // at the end, or past it by rounding
+      if (sign(v) > 0 || (sign(v) == 0 && sign(a) > 0)) return Duration<Wide>{};
+      ahead = none;
+    }
+    return detail::DragFall<Wide>(ahead, -v, -a, static_cast<Wide>(rate)).landing();
+  };
+  const auto to_end = covered(square_norm(e) - place, speed, gain);
+  const auto to_start = covered(place, -speed, -gain);
+  DoubleWord<Wide> first{std::numeric_limits<Wide>::infinity(), Wide(0)};
+  if (to_end) first = {to_end->hi, to_end->lo};
+  if (to_start && to_start->hi < first.hi) first = {to_start->hi, to_start->lo};
+  if (!detail::is_finite(first.hi)) return {std::numeric_limits<S>::infinity(), S(0)};
+  return detail::stored_words<S>(first);
 }
 
 /// (3): do these supports hold a disk under gravity? Normals are unit vectors towards the disk;

@@ -24,6 +24,13 @@ std::uint8_t flags_of(const engine::Collision& collision) {
   return static_cast<std::uint8_t>(flags);
 }
 
+idl::Law law_of(const engine::MotionRecord& motion) {
+  if (motion.radius.high != 0) return idl::Law::kGrowing;
+  if (motion.drag != 0) return idl::Law::kDragged;
+  const bool is_uniform = motion.ax.high == 0 && motion.ay.high == 0;
+  return is_uniform ? idl::Law::kUniform : idl::Law::kAccelerated;
+}
+
 }  // namespace
 
 void StateColumns::append(const engine::BodyState& state) {
@@ -108,14 +115,16 @@ void WallColumns::lend(wire::WallBlock& block, std::size_t first, std::size_t co
 void MotionColumns::append(engine::ChangeKind change, const engine::MotionRecord& motion) {
   angle_.append(size(), motion.angle);
   spin_.append(size(), motion.spin);
-  ax_.append(size(), motion.ax.high);
+  const idl::Law law = law_of(motion);
+  const engine::SplitNumber& ax = law == idl::Law::kGrowing ? motion.radius : motion.ax;
+  ax_.append(size(), ax.high);
   ay_.append(size(), motion.ay.high);
-  ax_low_.append(size(), motion.ax.low);
+  ax_low_.append(size(), ax.low);
   ay_low_.append(size(), motion.ay.low);
+  rate_.append(size(), law == idl::Law::kGrowing ? motion.growth : motion.drag);
   id_.push_back(motion.id);
   change_.push_back(idl::wire_value(to_wire(change)));
-  const bool is_uniform = motion.ax.high == 0 && motion.ay.high == 0;
-  law_.push_back(idl::wire_value(is_uniform ? idl::Law::kUniform : idl::Law::kAccelerated));
+  law_.push_back(idl::wire_value(law));
   x_.push_back(motion.x.high);
   y_.push_back(motion.y.high);
   x_low_.push_back(motion.x.low);
@@ -135,7 +144,9 @@ void MotionColumns::clear() {
     column->clear();
   }
   seconds_.clear();
-  for (auto* column : {&angle_, &spin_, &ax_, &ay_, &ax_low_, &ay_low_}) column->clear();
+  for (auto* column : {&angle_, &spin_, &ax_, &ay_, &ax_low_, &ay_low_, &rate_}) {
+    column->clear();
+  }
 }
 
 void MotionColumns::reserve(std::size_t count) {
@@ -167,6 +178,7 @@ void MotionColumns::lend(wire::MotionBlock& block, std::size_t first, std::size_
   idl::lend(block.ay, rows(ay_.padded(size()), first, count));
   idl::lend(block.ax_low, rows(ax_low_.padded(size()), first, count));
   idl::lend(block.ay_low, rows(ay_low_.padded(size()), first, count));
+  idl::lend(block.rate, rows(rate_.padded(size()), first, count));
 }
 
 void StaticColumns::append(const engine::BodyRecord& body) {

@@ -68,11 +68,12 @@ bool consistent(const wire::MotionBlock& block) {
                            block.ax._length,
                            block.ay._length,
                            block.ax_low._length,
-                           block.ay_low._length}) &&
+                           block.ay_low._length,
+                           block.rate._length}) &&
          std::ranges::all_of(idl::view(block.change),
                              [](std::uint8_t value) { return change_of(value).has_value(); }) &&
          std::ranges::all_of(idl::view(block.law),
-                             [](std::uint8_t value) { return value <= stoss_v1_LAW_ACCELERATED; });
+                             [](std::uint8_t value) { return value <= stoss_v1_LAW_GROWING; });
 }
 
 bool consistent(const wire::StaticBlock& block) {
@@ -121,6 +122,10 @@ bool consistent(const wire::HitBlock& block) {
 }
 
 engine::MotionRecord motion_at(const wire::MotionBlock& block, std::size_t i) {
+  const std::uint8_t law = block.law._buffer[i];
+  const bool grows = law == stoss_v1_LAW_GROWING;
+  const engine::SplitNumber ax{at_or(block.ax, i, 0), at_or(block.ax_low, i, 0)};
+  const double rate = at_or(block.rate, i, 0);
   return {.id = block.id._buffer[i],
           .x = {block.x._buffer[i], block.x_low._buffer[i]},
           .y = {block.y._buffer[i], block.y_low._buffer[i]},
@@ -129,8 +134,11 @@ engine::MotionRecord motion_at(const wire::MotionBlock& block, std::size_t i) {
           .since = {block.seconds._buffer[i], block.fraction._buffer[i]},
           .angle = at_or(block.angle, i, 0),
           .spin = at_or(block.spin, i, 0),
-          .ax = {at_or(block.ax, i, 0), at_or(block.ax_low, i, 0)},
-          .ay = {at_or(block.ay, i, 0), at_or(block.ay_low, i, 0)}};
+          .ax = grows ? engine::SplitNumber{} : ax,
+          .ay = {at_or(block.ay, i, 0), at_or(block.ay_low, i, 0)},
+          .drag = law == stoss_v1_LAW_DRAGGED ? rate : 0,
+          .radius = grows ? ax : engine::SplitNumber{},
+          .growth = grows ? rate : 0};
 }
 
 engine::Change change_at(const wire::MotionBlock& block, std::size_t i) {

@@ -70,6 +70,8 @@ engine::Effects effects_of(const Effects& asked, std::uint64_t seed) {
         .contact_duration = restitution.contact_duration(),
         .rest_speed = restitution.rest_speed()};
   }
+  if (asked.has_drag()) effects.drag = engine::Drag{asked.drag().rate()};
+  if (asked.has_growth()) effects.growth = engine::Growth{asked.growth().rate()};
   if (asked.has_rough()) {
     effects.rough = engine::Rough{.tangential_restitution = asked.rough().tangential_restitution(),
                                   .friction = asked.rough().friction()};

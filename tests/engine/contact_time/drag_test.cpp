@@ -3,6 +3,7 @@
 // single cases by hand.
 #include "contact_time/drag.hpp"
 
+#include "contact_time/drag_face.hpp"
 #include "support/accelerated_cases.hpp"
 #include "support/contact_cases.hpp"
 #include "support/oracle.hpp"

@@ -5,6 +5,7 @@
 #include "contact_time/accelerated_disk_disk.hpp"
 #include "contact_time/accelerated_disk_wall.hpp"
 #include "contact_time/drag.hpp"
+#include "contact_time/drag_face.hpp"
 #include "contact_time/growing.hpp"
 #include "elementary.hpp"
 #include "support/random.hpp"
@@ -74,7 +75,7 @@ void add_case(Fingerprint& print, Random& random) {
   print.add(accelerated_disk_contact(curved, reach, S(1)));
   print.add(accelerated_face_contact(curved, edge, radius, forever));
   print.add(growing_disk_contact(straight, GrowingReach<S>{reach, {rate, S(0)}}));
-  print.add(growing_face_contact(straight, edge, radius, rate));
+  print.add(growing_face_contact(straight, edge, GrowingReach<S>{reach, {rate, S(0)}}));
   print.add(drag_disk_contact(straight, reach, rate));
   print.add(drag_face_contact(curved, edge, radius, rate, forever));
   const S x = S(16) * position.x.hi;

@@ -240,7 +240,8 @@ Census census_of_walls(const test::WallFamily& family, bool low_words, bool near
       const bool has_size = Real(c.radius) + Real(growth) * t >= 0;
       if (s > 0 && s < 1 && has_size) truth = t;
     }
-    census.add(growing_face_contact(c.motion, c.edge, c.radius, growth), truth);
+    const GrowingReach<S> radius{{c.radius, S(0)}, {growth, S(0)}};
+    census.add(growing_face_contact(c.motion, c.edge, radius), truth);
   }
   return census;
 }
@@ -330,11 +331,12 @@ TYPED_TEST(GrowingByHand, NotANumberAndInfinityNeverMeet) {
 TYPED_TEST(GrowingByHand, WallIsReachedByGrowthAlone) {
   using S = TypeParam;
   const DoubleWord2<S> edge{{S(4), S(0)}, {S(0), S(0)}};
-  const auto t = growing_face_contact(moving<S>(S(2), S(3), S(0), S(0)), edge, S(1), S(0.5));
+  const GrowingReach<S> radius{{S(1), S(0)}, {S(0.5), S(0)}};
+  const auto t = growing_face_contact(moving<S>(S(2), S(3), S(0), S(0)), edge, radius);
   ASSERT_TRUE(t.has_value());
   EXPECT_EQ(t->hi, S(4));
   const auto beside = moving<S>(S(5), S(3), S(0), S(0));
-  EXPECT_FALSE(growing_face_contact(beside, edge, S(1), S(0.5)).has_value());
+  EXPECT_FALSE(growing_face_contact(beside, edge, radius).has_value());
 }
 
 }  // namespace

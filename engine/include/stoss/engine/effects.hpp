@@ -34,8 +34,8 @@ struct Restitution {
   /// s; a contact less than this after an earlier one of either disk is elastic, and marked as
   /// regularised. 0: never, and then an inelastic collapse stops the world.
   double contact_duration = 0;
-  /// m/s; under gravity a disk whose bounce would be slower than this stays on what it has met.
-  /// 0: 1e-9.
+  /// m/s; under gravity or drag a disk whose bounce would be slower than this stays on what it has
+  /// met. 0: 1e-9.
   double rest_speed = 0;
 
   friend bool operator==(const Restitution&, const Restitution&) = default;
@@ -63,6 +63,21 @@ struct Thermostat {
   friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
+/// Linear drag on dynamic disks, by a medium at rest: velocities fall as e^(-rate t).
+struct Drag {
+  double rate = 0;  ///< 1/s; 0, or in [1e-12, 1e12]
+
+  friend bool operator==(const Drag&, const Drag&) = default;
+};
+
+/// Disks of all kinds whose radii grow alike, so that a packing can be made. Lubachevsky and
+/// Stillinger, J. Stat. Phys. 60 (1990) 561.
+struct Growth {
+  double rate = 0;  ///< of each radius, m/s, >= 0
+
+  friend bool operator==(const Growth&, const Growth&) = default;
+};
+
 /// Present = on.
 struct Effects {
   std::optional<Gravity> gravity;
@@ -70,6 +85,8 @@ struct Effects {
   std::optional<Restitution> restitution;
   std::optional<Rough> rough;
   std::optional<Thermostat> thermostat;
+  std::optional<Drag> drag;
+  std::optional<Growth> growth;
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -72,11 +72,7 @@ MotionRecord to_record(Id id, const Motion<S>& motion) {
           to_split(motion.position.y),
           to_split(motion.velocity.x),
           to_split(motion.velocity.y),
-          to_instant(motion.since),
-          0,
-          0,
-          {},
-          {}};
+          to_instant(motion.since)};
 }
 
 /// Evaluates a recorded motion as a world in `arithmetic` does. Exact to the bit for Float and
@@ -88,6 +84,12 @@ Vector2 evaluate(const MotionRecord& motion, Arithmetic arithmetic, const Instan
 Vector2 evaluate_velocity(const MotionRecord& motion,
                           Arithmetic arithmetic,
                           const Instant& instant);
+
+/// The radius of a recorded disk, m, in the same sense.
+double evaluate_radius(const MotionRecord& motion,
+                       const BodyRecord& body,
+                       Arithmetic arithmetic,
+                       const Instant& instant);
 
 /// angle + spin (instant - since), each step rounded once to double; rad.
 double turned(double angle, double spin, const Instant& since, const Instant& instant);

@@ -120,10 +120,14 @@ struct MotionRecord {
   Instant since;
   double angle = 0;        ///< rad, at `since`
   double spin = 0;         ///< rad/s
-  SplitNumber ax{}, ay{};  ///< m/s^2; zero in uniform motion
+  SplitNumber ax{}, ay{};  ///< m/s^2; zero in uniform motion; under drag what pulls besides
+  double drag = 0;         ///< rate of the drag, 1/s; 0: none
+  SplitNumber radius{};    ///< m, at `since`, of a growing disk; else zero: see BodyRecord
+  double growth = 0;       ///< of the radius, m/s
 };
 
-/// What of a body changes rarely: everything but its motion.
+/// What of a body changes rarely: everything but its motion. `radius` is that of the present where
+/// disks grow.
 struct BodyRecord {
   Id id = kNoId;
   bool is_wall = false;

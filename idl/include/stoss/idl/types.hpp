@@ -112,6 +112,8 @@ enum class Change : std::uint8_t {
 enum class Law : std::uint8_t {
   kUniform = stoss_v1_LAW_UNIFORM,
   kAccelerated = stoss_v1_LAW_ACCELERATED,
+  kDragged = stoss_v1_LAW_DRAGGED,
+  kGrowing = stoss_v1_LAW_GROWING,
 };
 
 enum class CollisionKind : std::uint8_t {

@@ -87,7 +87,7 @@ class MotionColumns {
   std::vector<double> x_, y_, x_low_, y_low_, vx_, vy_, vx_low_, vy_low_;
   std::vector<std::int64_t> seconds_;
   std::vector<std::uint64_t> fraction_;
-  SparseColumn angle_, spin_, ax_, ay_, ax_low_, ay_low_;
+  SparseColumn angle_, spin_, ax_, ay_, ax_low_, ay_low_, rate_;
 };
 
 /// Rows of a StaticBlock.
