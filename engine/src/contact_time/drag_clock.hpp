@@ -6,8 +6,8 @@
 // Source: elementary: u' = -m u + a.
 // Deviation: l and s from elementary.hpp; f by (2) where it cancels; l is taken for zero beyond
 //   kSpent. Float runs in double.
-// Accuracy: s and l to 2^-100, f to 2^-90 of themselves: contact_time/drag_curve_test.cpp.
-// Preconditions: m > 0.
+// Accuracy: s to 2^-103 of itself, l to 2^-105 of 1, f to 2^-93 of itself:
+// contact_time/drag_curve_test.cpp. Preconditions: m > 0.
 #pragma once
 
 #include "contact_time/accelerated.hpp"

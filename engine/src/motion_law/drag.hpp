@@ -7,7 +7,7 @@
 // Deviation: double words. Float's durations are formed in double. A disk on a moving wall is
 // pulled
 //   by m V besides, so that it keeps up with the wall.
-// Accuracy: s and l to 2^-100, f to 2^-90; tests/engine/effects/drag_test.cpp.
+// Accuracy: as drag_clock.hpp; tests/engine/effects/drag_test.cpp.
 // Preconditions: m > 0; instants before the motion's own by no more than 700 / m.
 #pragma once
 
