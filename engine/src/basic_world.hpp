@@ -120,6 +120,8 @@ class BasicWorld final : public WorldCore {
     std::uint64_t count = 0;  ///< had so far
   };
 
+  struct Nothing {};
+
   /// Names the offending element of a command in a refusal.
   struct Place {
     const char* list;
@@ -317,7 +319,8 @@ class BasicWorld final : public WorldCore {
   std::vector<std::int32_t> free_shapes_;
   std::unordered_map<Id, Slot> slots_;            // looked up, never iterated
   std::unordered_map<Slot, Rotation> rotations_;  // of turning disks in a plain world; likewise
-  std::vector<Kicks> kicks_;                      // by slot; empty without a thermostat
+  // By slot; empty without a thermostat.
+  [[no_unique_address]] std::conditional_t<Laws::kPlain, Nothing, std::vector<Kicks>> kicks_;
   std::size_t walls_in_use_ = 0;
 
   Neighbours neighbours_;

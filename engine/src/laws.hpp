@@ -28,7 +28,7 @@ namespace stoss::engine {
 enum class LawsKind { Plain, Contact, Growing, Accelerated, Dragged };
 
 /// The least that has all these effects.
-inline LawsKind laws_for(const Effects& effects) {
+constexpr LawsKind laws_for(const Effects& effects) {
   if (effects == Effects{}) return LawsKind::Plain;
   if (effects.growth) return LawsKind::Growing;
   if (effects.drag && effects.drag->rate > 0) return LawsKind::Dragged;

@@ -18,10 +18,13 @@ namespace stoss::bench {
 /// Processes so many events and returns how many of them were collisions.
 using Advance = std::function<std::uint64_t(std::uint64_t events)>;
 
-/// columns^2 disks of 0.4375 m, off their lattice already. Throws when the world refuses them or
-/// stalls.
+/// columns^2 disks of 0.4375 m in the world that `make` makes, off their lattice already. Throws
+/// when the world refuses them or stalls.
 template <class World, class Disk, class Wall>
-Advance make_run(int columns, double area_fraction) {
+Advance make_run(
+    int columns, double area_fraction, const std::function<World()>& make = [] {
+      return World();
+    }) {
   constexpr double kRadius = 0.4375;
   const double side = columns * kRadius * std::sqrt(std::numbers::pi / area_fraction);
   const double pitch = side / columns;
@@ -39,7 +42,7 @@ Advance make_run(int columns, double area_fraction) {
     walls[i].start = {corners[i][0], corners[i][1]};
     walls[i].end = {corners[i + 1][0], corners[i + 1][1]};
   }
-  auto world = std::make_shared<World>();
+  auto world = std::make_shared<World>(make());
   if (!world->spawn({disks, walls}).ok()) throw std::runtime_error("the gas is refused");
   Advance advance = [world](std::uint64_t events) {
     const auto report = world->advance_to({1'000'000, 0}, nullptr, events).value();

@@ -35,14 +35,4 @@ template <class S>
   return motion.velocity + acceleration * difference<S>(instant, motion.since);
 }
 
-namespace detail {
-
-/// Each component rounded once to double.
-template <class S>
-[[nodiscard]] inline Vector2 rounded(const DoubleWord2<S>& v) {
-  return {static_cast<double>(to_scalar(v.x)), static_cast<double>(to_scalar(v.y))};
-}
-
-}  // namespace detail
-
 }  // namespace stoss::engine

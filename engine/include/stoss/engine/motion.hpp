@@ -38,6 +38,16 @@ DoubleWord2<S> position_at(const Motion<S>& motion, const Time<S>& instant) {
           motion.position.y + motion.velocity.y * elapsed};
 }
 
+namespace detail {
+
+/// Each component rounded once to double.
+template <class S>
+[[nodiscard]] inline Vector2 rounded(const DoubleWord2<S>& v) {
+  return {static_cast<double>(to_scalar(v.x)), static_cast<double>(to_scalar(v.y))};
+}
+
+}  // namespace detail
+
 /// Splits a value of any arithmetic up to 106 bits into two doubles, exactly.
 template <class S>
 SplitNumber to_split(const DoubleWord<S>& value) {
