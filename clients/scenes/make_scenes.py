@@ -11,6 +11,7 @@ scene starts with an overlap.
 """
 
 import argparse
+import itertools
 import math
 import pathlib
 import random
@@ -26,8 +27,9 @@ CLEAR = 1e-9
 class Scene:
     """Disks and walls in the order of their ids, which count up from 1."""
 
-    def __init__(self, name):
+    def __init__(self, name, period=(0, 0)):
         self.name = name
+        self.period = period  # m; 0: open
         self.disks = []
         self.walls = []
 
@@ -109,15 +111,18 @@ class Grid:
 
 
 def verify(scene):
-    """Fails when two bodies of the scene overlap."""
+    """Fails when two bodies of the scene, or images of them, overlap."""
     grid = Grid()
+    across, up = ((-length, 0, length) if length else (0,) for length in scene.period)
     for index, disk in enumerate(scene.disks):
-        for other in grid.near(disk):
-            if not disks_apart(disk, other):
-                raise ValueError(f"{scene.name}: disk {index + 1} overlaps {other}")
-        for wall in scene.walls:
-            if not wall_apart(disk, wall):
-                raise ValueError(f"{scene.name}: disk {index + 1} overlaps wall {wall}")
+        for x, y in itertools.product(across, up):
+            image = dict(disk, x=disk["x"] + x, y=disk["y"] + y)
+            for other in grid.near(image):
+                if not disks_apart(image, other):
+                    raise ValueError(f"{scene.name}: disk {index + 1} overlaps {other}")
+            for wall in scene.walls:
+                if not wall_apart(image, wall):
+                    raise ValueError(f"{scene.name}: disk {index + 1} overlaps wall {wall}")
         grid.add(disk)
 
 
@@ -242,6 +247,36 @@ def gas():
     return scene
 
 
+def periodic_gas():
+    # No walls: a fifth of the area, whose equation of state is that of the bulk but for one part in
+    # the number of disks.
+    scene = Scene("periodic-gas", period=(64, 64))
+    rng = random.Random(1024)
+    for i in range(1024):
+        scene.disk(2 * (i % 32), 2 * (i // 32), 0.5, **thermal(rng, 1.0, 1.0))
+    return scene
+
+
+def channel():
+    # A gas that streams around the world between a floor and a ceiling without end, past pillars
+    # and a plate across the border.
+    scene = Scene("channel", period=(24, 0))
+    rng = random.Random(24)
+    scene.wall(0, 0, 24, 0, name="floor")
+    scene.wall(24, 12, 0, 12, name="ceiling")
+    scene.wall(22, 5, 26, 7, name="plate")
+    for i, y in enumerate((3, 9, 6)):
+        scene.disk(5 + 6 * i, y, 1, kind="STATIC", name=f"pillar {i + 1}")
+    grid = Grid()
+    for disk in scene.disks:
+        grid.add(disk)
+    for _ in range(60):
+        flow = thermal(rng, 0.25, 1.0)
+        flow["vx"] = round(flow["vx"] + 1, 6)
+        place(scene, grid, rng, 0.3, (2.4, 0, 21.6, 12), 1e-3, **flow)
+    return scene
+
+
 def polydisperse():
     # Radii from 0.05 m to 5 m, masses as the area, one temperature for all. Obstacles: pillars,
     # pins, a free wall, a funnel and a bent chain of walls.
@@ -318,7 +353,8 @@ def to_json(scene):
     disks = ",\n".join(disk_line(i, d) for i, d in enumerate(scene.disks, 1))
     first = len(scene.disks) + 1
     walls = ",\n".join(wall_line(i, w) for i, w in enumerate(scene.walls, first))
-    return (f'{{\n  "name": "{scene.name}",\n  "disks": [\n{disks}\n  ],\n'
+    period = f'  "period": {vector(*scene.period)},\n' if any(scene.period) else ""
+    return (f'{{\n  "name": "{scene.name}",\n{period}  "disks": [\n{disks}\n  ],\n'
             f'  "walls": [\n{walls}\n  ]\n}}\n')
 
 
@@ -326,7 +362,8 @@ def main():
     parser = argparse.ArgumentParser(description="Makes the example scenes.")
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     arguments = parser.parse_args()
-    scenes = [tutorial(), newtons_cradle(), pool_break(), bullets(), gas(), polydisperse()]
+    scenes = [tutorial(), newtons_cradle(), pool_break(), bullets(), gas(), polydisperse(),
+              periodic_gas(), channel()]
     scenes += [pi_digits(k) for k in range(5)]
     stale = []
     for scene in scenes:

@@ -7,8 +7,8 @@ namespace stoss::client {
 
 std::optional<MotionPart> motion_part_of(const idl::wire::MotionBatch& batch) {
   const auto arithmetic = translate::arithmetic_of(batch.arithmetic);
-  if (!arithmetic || !translate::consistent(batch.motions) ||
-      !translate::consistent(batch.statics)) {
+  if (!arithmetic || engine::check_period({batch.period_x, batch.period_y}) ||
+      !translate::consistent(batch.motions) || !translate::consistent(batch.statics)) {
     return std::nullopt;
   }
   MotionPart part;
@@ -19,6 +19,7 @@ std::optional<MotionPart> motion_part_of(const idl::wire::MotionBatch& batch) {
   part.tick = batch.tick;
   part.at = translate::to_engine(batch.at);
   part.arithmetic = *arithmetic;
+  part.period = {batch.period_x, batch.period_y};
   part.state_hash = batch.state_hash;
   part.changes.reserve(batch.motions.id._length);
   for (std::size_t i = 0; i < batch.motions.id._length; ++i) {

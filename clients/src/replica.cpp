@@ -85,7 +85,8 @@ class Replica::Impl {
 
 Replica::Impl::Impl(Session& session, ReplicaOptions options)
     : model(translate::arithmetic_of(session.first_status().arithmetic)
-                .value_or(engine::Arithmetic::Double)),
+                .value_or(engine::Arithmetic::Double),
+            session.first_status().period),
       session_(session),
       subscriber_(session.participant(), idl::partition_of(session.world())),
       motion_topic_(idl::make_topic(session.participant(), idl::kMotionTopic)),
@@ -232,7 +233,7 @@ std::optional<std::chrono::nanoseconds> Replica::time_to_complete() const {
 
 Replica::Snapshot Replica::snapshot() const {
   const std::lock_guard lock(impl_->mutex);
-  Snapshot result{impl_->model.stamp(), impl_->model.arithmetic(), {}};
+  Snapshot result{impl_->model.stamp(), impl_->model.arithmetic(), impl_->model.period(), {}};
   result.bodies.reserve(impl_->model.size());
   impl_->model.for_each([&result](const ReplicaBody& body) { result.bodies.push_back(body); });
   return result;

@@ -11,26 +11,6 @@ bool before(const MotionPart& a, const MotionPart& b) {
   return a.epoch != b.epoch ? a.epoch < b.epoch : a.number < b.number;
 }
 
-/// As the engine's World evaluates a wall.
-template <class S>
-engine::WallState wall_in(const ReplicaBody& body, const engine::Instant& instant) {
-  using engine::DoubleWord2;
-  const auto rounded = [](const DoubleWord2<S>& v) {
-    return engine::Vector2{static_cast<double>(to_scalar(v.x)),
-                           static_cast<double>(to_scalar(v.y))};
-  };
-  const engine::Motion<S> motion = engine::from_record<S>(body.motion);
-  const auto when = engine::from_instant<engine::Time<S>>(instant);
-  const DoubleWord2<S> start = engine::position_at(motion, when);
-  const DoubleWord2<S> edge = {engine::from_split<S>(body.body.edge_x),
-                               engine::from_split<S>(body.body.edge_y)};
-  return {body.motion.id,
-          instant,
-          rounded(start),
-          rounded({start.x + edge.x, start.y + edge.y}),
-          rounded(motion.velocity)};
-}
-
 }  // namespace
 
 void ReplicaModel::apply(MotionPart part) {
@@ -152,6 +132,7 @@ void ReplicaModel::apply_tick() {
   restore_order();
   const MotionPart& last = parts.back();
   arithmetic_ = last.arithmetic;
+  period_ = last.period;
   stamp_ = {last.epoch, last.number, last.tick, last.at, last.state_hash};
   tell();
 }
@@ -232,7 +213,7 @@ engine::BodyState ReplicaModel::disk_at(const ReplicaBody& body,
   state.id = motion.id;
   state.kind = body.body.kind;
   state.instant = instant;
-  state.position = engine::evaluate(motion, arithmetic_, instant);
+  state.position = engine::evaluate(motion, arithmetic_, instant, period_);
   state.velocity = engine::evaluate_velocity(motion, arithmetic_, instant);
   state.angle = engine::turned(motion.angle, motion.spin, motion.since, instant);
   state.spin = motion.spin;
@@ -242,8 +223,7 @@ engine::BodyState ReplicaModel::disk_at(const ReplicaBody& body,
 
 engine::WallState ReplicaModel::wall_at(const ReplicaBody& body,
                                         const engine::Instant& instant) const {
-  return arithmetic_ == engine::Arithmetic::Float ? wall_in<float>(body, instant)
-                                                  : wall_in<double>(body, instant);
+  return engine::evaluate_wall(body.motion, body.body, arithmetic_, instant, period_);
 }
 
 }  // namespace stoss::client

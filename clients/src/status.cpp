@@ -58,6 +58,7 @@ Status status_of(const idl::wire::Status& status) {
   result.state_hash = status.state_hash;
   copy_counts(result, status);
   result.arithmetic = status.arithmetic;
+  result.period = {status.period_x, status.period_y};
   result.broad_phase = idl::text(status.broad_phase);
   result.version = idl::text(status.version);
   result.build = idl::text(status.build);

@@ -26,11 +26,13 @@
 #include "id_ledger.hpp"
 #include "laws.hpp"
 #include "motion_law/drag.hpp"
+#include "periodic.hpp"
 #include "screen.hpp"
 #include "world_core.hpp"
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
@@ -53,6 +55,7 @@ class BasicWorld final : public WorldCore {
   Arithmetic arithmetic() const override { return arithmetic_; }
   BroadPhaseKind broad_phase() const override { return broad_phase_; }
   Effects effects() const override { return laws_.effects(); }
+  Vector2 period() const override;
   std::size_t disk_count() const override { return slots_.size() - walls_in_use_; }
   std::size_t wall_count() const override { return walls_in_use_; }
   Counters counters() const override { return counters_; }
@@ -93,6 +96,8 @@ class BasicWorld final : public WorldCore {
   using Relative = typename Laws::template Relative<S>;
   using Radius = typename Laws::template Radius<S>;
   using Reach = typename Laws::template Reach<S>;
+  /// Which image of a body is meant; a plain world has no others, and nothing to say.
+  using Which = std::conditional_t<Laws::kPlain, OneImage, Image>;
 
   /// A contact of two bodies as their motions foretell it. `a` is the disk of a disk and a wall, or
   /// the disk of lower id.
@@ -103,7 +108,8 @@ class BasicWorld final : public WorldCore {
     WallFeature feature = WallFeature::Face;
     Time<S> reference;  ///< the later of the two motions' instants
     Relative relative;  ///< disk-disk: b from a; else: disk from the wall's start or end
-    Duration<S> after_reference{};  ///< s
+    Duration<S> after_reference{};        ///< s
+    [[no_unique_address]] Which image{};  ///< of b, that a meets
   };
 
   /// What a contact does to its bodies.
@@ -145,10 +151,11 @@ class BasicWorld final : public WorldCore {
   bool holds_prediction(Slot holder, Slot other) const;
   template <class Visit>
   void for_each_neighbour(Slot slot, Visit&& visit) const;
-  Relative relative_motion(Slot of, Slot from, const Time<S>& reference) const;
+  Relative relative_motion(Slot of, Slot from, const Time<S>& reference, const Which& image) const;
   std::optional<Contact> contact_of(Slot i, Slot j) const;
-  std::optional<Contact> disk_disk_contact_of(Slot a, Slot b) const;
-  std::optional<Contact> disk_wall_contact_of(Slot disk, Slot wall) const;
+  std::optional<Contact> contact_with(Slot a, Slot b, const Which& image) const;
+  std::optional<Contact> disk_disk_contact_of(Slot a, Slot b, const Which& image) const;
+  std::optional<Contact> disk_wall_contact_of(Slot disk, Slot wall, const Which& image) const;
   Relative motion_from_end(const Relative& from_start, Slot wall, int end) const;
   bool hidden_by_faces(const Relative& from_vertex,
                        Slot wall,
@@ -157,13 +164,46 @@ class BasicWorld final : public WorldCore {
                        bool has_left_face) const;
   DoubleWord2<S> edge_from(const WallEnd& vertex) const;
   std::optional<Event<S>> event_with(Slot holder, Slot partner) const;
+  std::optional<Event<S>> event_of(const Contact& contact, Slot partner) const;
   Event<S> renewal_event(Slot slot, const Glance& here) const;
   double horizon_of(const Event<S>& event) const;
   bool may_meet(Slot slot, const Glance& here, Slot other, double horizon) const;
+  bool may_meet_at(
+      Slot slot, const Glance& here, Slot other, const Glance& there, double horizon) const;
   void predict(Slot slot, bool changed);
   void renew_box(Slot slot, double margin);
   Aabb tight_box(Slot slot) const;
+  Aabb tight_box(Slot slot, const Glance& here) const;
   double smallest_margin(Slot slot) const;
+
+  // basic_world_images.hpp
+  bool is_periodic() const;
+  template <class Visit>
+  void for_each_image(Slot a, Slot b, Visit&& visit) const;
+  template <class Visit>
+  void for_each_neighbour_image(Slot slot, Visit&& visit) const;
+  std::vector<Slot> found_around(Slot slot) const;
+  void leave_lists(Slot slot);
+  std::optional<Contact> first_contact_of(Slot a, Slot b) const;
+  bool may_meet_some_image(Slot slot, const Glance& here, Slot other, double horizon) const;
+  Vector2 normal_to_image(Slot disk, Slot wall, const Image& image) const;
+  void renew_cage(Slot slot, Role role, double margin);
+  double next_margin(Slot slot) const;
+  const Neighbours::Anchor& anchor_of(Slot slot) const;
+  double margin_of(Slot slot) const;
+  bool has_no_place(Slot slot) const;
+  Vector2 shown(const DoubleWord2<S>& position) const;
+  DoubleWord2<S> period_words() const;
+  DoubleWord2<S> apart(const DoubleWord2<S>& p,
+                       const DoubleWord2<S>& q,
+                       const Which& image) const;
+  DoubleWord2<S> nearest_apart(const DoubleWord2<S>& a, const DoubleWord2<S>& b) const;
+  template <class Visit>
+  void for_each_stored_copy(const Aabb& box, Visit&& visit) const;
+  double speed_max() const;
+  std::optional<Reject> check_room(const DiskSpec& spec, std::size_t i) const;
+  std::optional<Reject> check_room(const WallSpec& spec, std::size_t i) const;
+  bool is_in_bounds(Slot slot) const;
 
   // basic_world_events.hpp
   bool is_stale(const Event<S>& event) const;
@@ -171,8 +211,8 @@ class BasicWorld final : public WorldCore {
   void resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink);
   bool is_squeezed(const Contact& contact) const;
   double hop(Slot slot, const Time<S>& from, const Time<S>& to) const;
-  Vector2 normal_towards(Slot from, Slot to) const;
-  bool depends_on_order(Slot shared, Slot other, const Vector2& normal) const;
+  Vector2 normal_towards(Slot from, Slot to, const Which& image) const;
+  bool depends_on_order(Slot shared, Slot other, const Which& image, const Vector2& normal) const;
   bool is_simultaneous(const Contact& contact,
                        const Time<S>& before_a,
                        const Time<S>& before_b) const;
@@ -228,13 +268,21 @@ class BasicWorld final : public WorldCore {
   void read_body_part(ByteSource& source, Slot slot);
 
   // basic_world_rest.hpp
-  bool rests_on(Slot a, Slot b) const;
+  /// What holds a disk besides the body that it has just met; kNoId where that one is enough.
+  struct Hold {
+    Id id = kNoId;
+    [[no_unique_address]] Which image{};
+  };
+  bool rests_on(Slot a, Slot b, const Which& image) const;
+  bool is_held_by(Slot disk, Slot support) const;
+  RestImages rest_images(Slot disk) const;
+  void set_rest_images(Slot disk, const RestImages& images);
   void let_go(Slot slot);
   bool is_last_bounce(const Contact& contact,
                       const PairImpulse<S>& elastic,
                       const S& restitution) const;
   S hop_speed(const Contact& contact, const PairImpulse<S>& elastic, const S& restitution) const;
-  std::optional<Id> finds_hold(const Contact& contact) const;
+  std::optional<Hold> finds_hold(const Contact& contact) const;
   void settle_down(const Contact& contact);
   void renew_rest(Slot slot);
   bool has_sound_supports(Slot slot) const;
@@ -268,7 +316,7 @@ class BasicWorld final : public WorldCore {
   Reject in_asked_ids(Reject overlap,
                       const SpawnRequest& request,
                       const std::vector<Id>& made) const;
-  double clearance(Slot a, Slot b) const;
+  double clearance(Slot a, Slot b, const Which& image) const;
   double reach_of(Slot a, Slot b) const;
   void enter(Slot slot);
   void link_vertices(Slot wall);
@@ -285,12 +333,20 @@ class BasicWorld final : public WorldCore {
   BodyState state_of(Slot slot) const;
   WallState wall_of(Slot slot) const;
   bool touches(Slot slot, const Vector2& low, const Vector2& high) const;
+  bool some_image_touches(Slot slot, const Aabb& box) const;
+  double distance_to_nearest_image(Slot slot, const Vector2& point) const;
+  std::optional<RayHit> ray_among_images(const Vector2& origin,
+                                         const Vector2& unit,
+                                         double length_max) const;
+  Aabb shown_box(Slot slot) const;
   double distance_to(Slot slot, const Vector2& point) const;
   std::optional<RayHit> ray_meets(Slot slot, const Vector2& origin, const Vector2& unit) const;
 
   // basic_world_census.hpp
   Aabb swept_box(Slot slot) const;
-  void examine(Slot a, Slot b, Census& census) const;
+  Aabb swept_box(Slot slot, const Aabb& end) const;
+  void examine(Slot a, Slot b, const Which& image, Census& census) const;
+  Census census_of_images() const;
 
   // basic_world_switch.hpp
   bool law_differs(Slot slot, const Effects& wanted) const;
@@ -309,6 +365,7 @@ class BasicWorld final : public WorldCore {
   Arithmetic arithmetic_;
   BroadPhaseKind broad_phase_;
   [[no_unique_address]] typename Laws::template Settings<S> laws_;
+  [[no_unique_address]] std::conditional_t<Laws::kPlain, OpenSpace, PeriodicSpace<S>> space_;
   Counters counters_;
   Id next_id_ = 1;
   IdLedger ledger_;
@@ -346,7 +403,8 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
     : now_(from_instant<Time<S>>(options.start)),
       arithmetic_(options.arithmetic),
       broad_phase_(options.broad_phase),
-      laws_(options.effects) {}
+      laws_(options.effects),
+      space_(options.period) {}
 
 }  // namespace stoss::engine
 
@@ -356,6 +414,7 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
 // After the queries, whose evaluations they use.
 #include "basic_world_census.hpp"
 #include "basic_world_events.hpp"
+#include "basic_world_images.hpp"
 #include "basic_world_laws.hpp"
 #include "basic_world_predict.hpp"
 #include "basic_world_rest.hpp"

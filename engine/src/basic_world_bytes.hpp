@@ -3,10 +3,10 @@
 
 // The world as canonical bytes and as a digest.
 //
-// Layout, in 64-bit words: magic, format, arithmetic and effects, now, collisions at now that count
-// towards a stall, collisions, regularised, kicks (with a thermostat), next id, retired runs
-// (count, then first and last of each), bodies (count, then each in the order of ids). No event,
-// box, list or slot is written: predictions are functions of the motions and are made anew.
+// Layout, in 64-bit words: magic, format, arithmetic, effects and periods, now, collisions at now
+// that count towards a stall, collisions, regularised, kicks (with a thermostat), next id, retired
+// runs (count, then first and last of each), bodies (count, then each in the order of ids). No
+// event, box, list or slot is written: predictions are functions of the motions and are made anew.
 
 #include "basic_world.hpp"
 #include "bytes.hpp"
@@ -53,7 +53,7 @@ std::vector<std::byte> BasicWorld<S, Laws>::bytes_for(const Effects& kind) const
   ByteSink sink;
   sink.word(kBytesMagic);
   sink.word(kBytesFormat);
-  write_identity(sink, {arithmetic_, kind});
+  write_identity(sink, {arithmetic_, kind, period()});
   write_time(sink, now_);
   sink.word(crowded_instant_ == now_ ? crowd_ : 0);
   sink.word(counters_.collisions);
@@ -86,7 +86,7 @@ template <class S, class Laws>
 std::uint64_t BasicWorld<S, Laws>::state_hash() const {
   const Effects kind = effects();
   DigestSink header;
-  write_identity(header, {arithmetic_, kind});
+  write_identity(header, {arithmetic_, kind, period()});
   header.word(counters_.collisions);
   header.word(counters_.regularised);
   if (kind.thermostat) header.word(counters_.kicks);
@@ -116,11 +116,14 @@ Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
   if (source.word() != kBytesMagic) return damaged("these are not a world's bytes");
   if (source.word() != kBytesFormat) return damaged("written in a format that is not known here");
   const auto identity = read_identity(source);
-  if (!identity || *identity != WorldIdentity{arithmetic_, effects()}) {
-    return damaged("written in another arithmetic, or with other effects");
+  if (!identity || *identity != WorldIdentity{arithmetic_, effects(), period()}) {
+    return damaged("written in another arithmetic, or with other effects or periods");
   }
-  BasicWorld fresh(
-      {.start = {}, .arithmetic = arithmetic_, .broad_phase = broad_phase_, .effects = effects()});
+  BasicWorld fresh({.start = {},
+                    .arithmetic = arithmetic_,
+                    .broad_phase = broad_phase_,
+                    .effects = effects(),
+                    .period = period()});
   fresh.now_ = read_time<Time<S>>(source);
   if (!in_range(to_instant(fresh.now_))) return damaged("the instant is damaged");
   fresh.crowded_instant_ = fresh.now_;
@@ -204,7 +207,7 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
   };
   const Motion<S>& m = body.motion;
   if (!in_range(to_instant(m.since)) || m.since > now_) return false;
-  if (!are_numbers(m.position) || !are_numbers(m.velocity)) return false;
+  if (!are_numbers(m.position) || !are_numbers(m.velocity) || !is_in_bounds(slot)) return false;
   if (body.is_wall()) {
     const DoubleWord2<S>& edge = shape(slot).edge;
     return are_numbers(edge) && (edge.x.hi != S(0) || edge.y.hi != S(0));

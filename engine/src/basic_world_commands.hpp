@@ -6,6 +6,7 @@
 
 #include "basic_world.hpp"
 #include "limits.hpp"
+#include "stored.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,6 @@ inline bool is_finite(const Vector2& v) { return std::isfinite(v.x()) && std::is
 inline bool within(const Vector2& v, double limit) {
   return std::abs(v.x()) <= limit && std::abs(v.y()) <= limit;
 }
-/// -0 and 0 are one state, so they are one bit pattern.
-inline double canonical(double x) { return x == 0 ? 0.0 : x; }
-
 inline std::string field_name(const char* list, std::size_t i, const char* member) {
   std::string name = std::string(list) + "[" + std::to_string(i) + "]";
   return *member == '\0' ? name : name + "." + member;
@@ -45,24 +43,6 @@ inline std::optional<Reject> check_vector(
   return std::nullopt;
 }
 
-// Not inlined: where GCC 12 vectorises two of these side by side, it takes a double that was
-// narrowed to float and widened again for the double itself, and the low word is lost.
-template <class S>
-[[gnu::noinline]] DoubleWord<S> stored(double x) {
-  const double value = canonical(x);
-  if constexpr (std::is_same_v<S, float>) {
-    const auto high = static_cast<float>(value);
-    return {high, static_cast<float>(value - static_cast<double>(high))};
-  } else {
-    return {S(value), S(0)};
-  }
-}
-
-template <class S>
-DoubleWord2<S> stored(const Vector2& v) {
-  return {stored<S>(v.x()), stored<S>(v.y())};
-}
-
 }  // namespace detail
 
 template <class S, class Laws>
@@ -72,7 +52,7 @@ std::optional<Reject> BasicWorld<S, Laws>::check_disk(const DiskSpec& spec, std:
     return detail::check_vector(v, limit, "disks", i, member, spec.id);
   };
   if (auto reject = check(spec.position, detail::kLengthMax<S>, "position")) return reject;
-  if (auto reject = check(spec.velocity, detail::kSpeedMax<S>, "velocity")) return reject;
+  if (auto reject = check(spec.velocity, speed_max(), "velocity")) return reject;
   if (!(spec.radius > 0) || !(spec.radius <= detail::kLengthMax<S>) || !(S(spec.radius) > S(0))) {
     return invalid("disks",
                    i,
@@ -93,7 +73,7 @@ std::optional<Reject> BasicWorld<S, Laws>::check_disk(const DiskSpec& spec, std:
   if (spec.kind == BodyKind::Static && spec.velocity != Vector2::Zero()) {
     return invalid("disks", i, "velocity", spec.id, "must be zero for a static disk");
   }
-  return std::nullopt;
+  return check_room(spec, i);
 }
 
 template <class S, class Laws>
@@ -103,11 +83,11 @@ std::optional<Reject> BasicWorld<S, Laws>::check_wall(const WallSpec& spec, std:
   };
   if (auto reject = check(spec.start, detail::kLengthMax<S>, "start")) return reject;
   if (auto reject = check(spec.end, detail::kLengthMax<S>, "end")) return reject;
-  if (auto reject = check(spec.velocity, detail::kSpeedMax<S>, "velocity")) return reject;
+  if (auto reject = check(spec.velocity, speed_max(), "velocity")) return reject;
   if (spec.start == spec.end) {
     return detail::invalid("walls", i, "end", spec.id, "equals start: a wall needs a length");
   }
-  return std::nullopt;
+  return check_room(spec, i);
 }
 
 template <class S, class Laws>
@@ -293,11 +273,12 @@ double BasicWorld<S, Laws>::reach_of(Slot a, Slot b) const {
   return radius_now(a) + radius_now(b);
 }
 
-/// The distance between two surfaces at now(), m; negative for an overlap. Not for two walls.
+/// The distance of a from the image of b, between surfaces at now(), m; negative for an overlap.
+/// Not for two walls.
 template <class S, class Laws>
-double BasicWorld<S, Laws>::clearance(Slot a, Slot b) const {
-  if (at(a).is_wall()) return clearance(b, a);
-  const Relative r = relative_motion(a, b, now_);
+double BasicWorld<S, Laws>::clearance(Slot a, Slot b, const Which& image) const {
+  if (at(a).is_wall()) return clearance(b, a, -image);
+  const Relative r = relative_motion(a, b, now_, -image);
   DoubleWord2<S> apart = r.position;
   if (at(b).is_wall()) {
     const DoubleWord2<S>& e = shape(b).edge;
@@ -325,8 +306,8 @@ template <class S, class Laws>
 std::optional<Reject> BasicWorld<S, Laws>::overlap_of(Slot slot, const Place& place) const {
   Id worst = kNoId;
   double deepest = 0;
-  for_each_neighbour(slot, [&](Slot other) {
-    const double gap = clearance(slot, other);
+  for_each_neighbour_image(slot, [&](Slot other, const Which& image) {
+    const double gap = clearance(slot, other, image);
     if (gap >= -kOverlapTolerance * reach_of(slot, other)) return;
     const Id id = at(other).id;
     if (worst == kNoId || gap < deepest || (gap == deepest && id < worst)) {
@@ -389,7 +370,8 @@ bool BasicWorld<S, Laws>::same_vertex(const WallEnd& a, const WallEnd& b) const 
   const DoubleWord2<S>& to_b = b.end == 0 ? none : shape(b.wall).edge;
   const DoubleWord2<S> pa = position_at(ma, when);
   const DoubleWord2<S> pb = position_at(mb, when);
-  const DoubleWord2<S> apart{(pa.x + to_a.x) - (pb.x + to_b.x), (pa.y + to_a.y) - (pb.y + to_b.y)};
+  const DoubleWord2<S> apart =
+      nearest_apart({pa.x + to_a.x, pa.y + to_a.y}, {pb.x + to_b.x, pb.y + to_b.y});
   const S unit = kCompensated<S> ? S(S(4096) * detail::epsilon<S>() * detail::epsilon<S>())
                                  : S(S(64) * detail::epsilon<S>());
   const S size = detail::sum_norm(ma.position) + detail::sum_norm(mb.position) +
@@ -402,7 +384,8 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::link_vertices(Slot wall) {
   std::vector<Slot> others;
   const auto collect = [&](Slot other) {
-    if (other != wall && at(other).id != kNoId && at(other).is_wall()) others.push_back(other);
+    if ((other != wall || is_periodic()) && at(other).id != kNoId && at(other).is_wall())
+      others.push_back(other);
   };
   if (all_pairs()) {
     for (Slot other = 0; index(other) < bodies_.size(); ++other) collect(other);
@@ -410,13 +393,15 @@ void BasicWorld<S, Laws>::link_vertices(Slot wall) {
     const Aabb box = tight_box(wall);
     const double size = std::max(
         {std::abs(box.low_x), std::abs(box.low_y), std::abs(box.high_x), std::abs(box.high_y)});
-    neighbours_.query(grown(box, kScreenSlack<S> * size), collect);  // ends may differ by rounding
+    for_each_stored_copy(grown(box, kScreenSlack<S> * size),  // ends may differ by rounding
+                         [&](const Aabb& copy) { neighbours_.query(copy, collect); });
   }
   for (const Slot other : others) {
     for (int end = 0; end < 2; ++end) {
       for (int other_end = 0; other_end < 2; ++other_end) {
         const WallEnd mine{wall, end};
         const WallEnd theirs{other, other_end};
+        if (mine == theirs) continue;
         auto& my_links = shape(wall).incident[static_cast<std::size_t>(end)];
         auto& their_links = shape(other).incident[static_cast<std::size_t>(other_end)];
         if (!same_vertex(mine, theirs)) continue;
@@ -461,15 +446,18 @@ void BasicWorld<S, Laws>::release(Slot slot) {
     }
   });
   for (const Slot other : meeting) queue_.erase(other, id_lookup());
-  if (!all_pairs()) neighbours_.remove(slot);
+  leave_lists(slot);
   slots_.erase(at(slot).id);
   rotations_.erase(slot);
+  set_rest_images(slot, {});
   at(slot).id = kNoId;
   free_slots_.push_back(slot);
   note_digest_stale(slot);
   ordered_valid_ = false;
   for (const Slot other : meeting) predict(other, /*changed=*/false);
-  for (const Slot other : linked) lay_bare(other);
+  for (const Slot other : linked) {
+    if (other != slot) lay_bare(other);  // a wall around a periodic world is linked to itself
+  }
 }
 
 template <class S, class Laws>
@@ -527,7 +515,7 @@ std::optional<Reject> BasicWorld<S, Laws>::check_targets(std::span<const VectorF
                     .reason = "no such body"};
     }
     if (auto reject =
-            detail::check_vector(target.value, detail::kSpeedMax<S>, list, i, "value", target.id)) {
+            detail::check_vector(target.value, speed_max(), list, i, "value", target.id)) {
       return reject;
     }
   }
@@ -597,7 +585,7 @@ Outcome<Done> BasicWorld<S, Laws>::apply_impulse(std::span<const VectorFor> impu
     const DoubleWord2<S> v = after(target);
     if (auto reject =
             detail::check_vector({static_cast<double>(v.x.hi), static_cast<double>(v.y.hi)},
-                                 detail::kSpeedMax<S>,
+                                 speed_max(),
                                  "impulses",
                                  i,
                                  "value",

@@ -88,7 +88,8 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   const Event<S> event = queue_.event_of(slot);
   if (event.kind == EventKind::NeighbourRenewal) {
     ++counters_.renewals;
-    renew_box(slot, neighbours_.next_margin(slot));
+    if (has_no_place(slot)) return false;
+    renew_box(slot, next_margin(slot));
     predict(slot, /*changed=*/true);
     return true;
   }
@@ -129,16 +130,19 @@ double BasicWorld<S, Laws>::hop(Slot slot, const Time<S>& from, const Time<S>& t
   return speed * elapsed;
 }
 
-/// Unit vector from a body to the nearest point of another, at now().
+/// Unit vector from a body to the nearest point of another's image, at now().
 template <class S, class Laws>
-Vector2 BasicWorld<S, Laws>::normal_towards(Slot from, Slot to) const {
-  if (at(from).is_wall()) return -normal_towards(to, from);
-  const Vector2 centre = detail::rounded(position_of(from, now_));
+Vector2 BasicWorld<S, Laws>::normal_towards(Slot from, Slot to, const Which& image) const {
+  if (at(from).is_wall()) return -normal_towards(to, from, -image);
   if (at(to).is_wall()) {
+    if constexpr (!Laws::kPlain) {
+      if (is_periodic()) return normal_to_image(from, to, image);
+    }
+    const Vector2 centre = detail::rounded(position_of(from, now_));
     const WallState wall = wall_of(to);
     return (detail::nearest_on_segment(wall.start, wall.end, centre) - centre).normalized();
   }
-  const Relative r = relative_motion(to, from, now_);
+  const Relative r = relative_motion(to, from, now_, image);
   return detail::rounded(r.position).normalized();
 }
 
@@ -152,16 +156,18 @@ bool BasicWorld<S, Laws>::is_squeezed(const Contact& contact) const {
   if (at(anvil).is_dynamic()) return false;
   const double room = kRoom * static_cast<double>(at(disk).radius);
   if (hop(disk, at(disk).motion.since, now_) > room) return false;
-  const auto jaw = [&](Slot other) {
-    const Vector2 normal = normal_towards(disk, other);
+  const auto jaw = [&](Slot other, const Which& image) {
+    const Vector2 normal = normal_towards(disk, other, image);
     const double closing = growth_of(disk) + growth_of(other);
     return Jaw{normal, detail::rounded(at(other).motion.velocity).dot(normal) - closing};
   };
-  const Jaw first = jaw(anvil);
+  const Which image_of_anvil = disk == contact.a ? contact.image : -contact.image;
+  const Jaw first = jaw(anvil, image_of_anvil);
   std::vector<Jaw> others;
-  for_each_neighbour(disk, [&](Slot other) {
-    if (other == anvil || at(other).is_dynamic() || clearance(disk, other) > room) return;
-    others.push_back(jaw(other));
+  for_each_neighbour_image(disk, [&](Slot other, const Which& image) {
+    if ((other == anvil && image == image_of_anvil) || at(other).is_dynamic()) return;
+    if (clearance(disk, other, image) > room) return;
+    others.push_back(jaw(other, image));
   });
   for (std::size_t i = 0; i < others.size(); ++i) {
     if (close_in(first, others[i])) return true;
@@ -174,17 +180,21 @@ bool BasicWorld<S, Laws>::is_squeezed(const Contact& contact) const {
 
 // Another body touches `shared` in such a way that it matters which contact comes first.
 template <class S, class Laws>
-bool BasicWorld<S, Laws>::depends_on_order(Slot shared, Slot other, const Vector2& normal) const {
+bool BasicWorld<S, Laws>::depends_on_order(Slot shared,
+                                           Slot other,
+                                           const Which& image,
+                                           const Vector2& normal) const {
   const auto weight = [this](Slot slot) {
     return at(slot).is_dynamic() ? 1 / static_cast<double>(at(slot).mass) : 0.0;
   };
   if (!at(shared).is_dynamic()) return false;
   bool depends = false;
-  for_each_neighbour(shared, [&](Slot third) {
-    if (depends || third == other) return;
-    if (clearance(shared, third) > kSimultaneousHop * reach_of(shared, third)) return;
-    depends = order_matters_between(
-        normal, normal_towards(shared, third), weight(shared), weight(other), weight(third));
+  for_each_neighbour_image(shared, [&](Slot third, const Which& thirds) {
+    if (depends || (third == other && thirds == image)) return;
+    if (clearance(shared, third, thirds) > kSimultaneousHop * reach_of(shared, third)) return;
+    const Vector2 other_normal = normal_towards(shared, third, thirds);
+    depends =
+        order_matters_between(normal, other_normal, weight(shared), weight(other), weight(third));
   });
   return depends;
 }
@@ -203,9 +213,9 @@ bool BasicWorld<S, Laws>::is_simultaneous(const Contact& contact,
     return next.partner >= 0 && hop(slot, now_, next.at) <= tiny;
   };
   if (!crowded(contact.a, before_a) && !crowded(contact.b, before_b)) return false;
-  const Vector2 normal = normal_towards(contact.a, contact.b);
-  return depends_on_order(contact.a, contact.b, normal) ||
-         depends_on_order(contact.b, contact.a, -normal);
+  const Vector2 normal = normal_towards(contact.a, contact.b, contact.image);
+  return depends_on_order(contact.a, contact.b, contact.image, normal) ||
+         depends_on_order(contact.b, contact.a, -contact.image, -normal);
 }
 
 // From a to b; only its direction matters to the contact law.
@@ -288,8 +298,8 @@ Collision BasicWorld<S, Laws>::describe(const Contact& contact,
   collision.a = a.id;
   collision.b = b.id;
   collision.normal = {static_cast<double>(impulse.normal_x), static_cast<double>(impulse.normal_y)};
-  collision.point = {static_cast<double>(to_scalar(centre.x + radius * impulse.normal_x)),
-                     static_cast<double>(to_scalar(centre.y + radius * impulse.normal_y))};
+  collision.point =
+      shown({centre.x + radius * impulse.normal_x, centre.y + radius * impulse.normal_y});
   collision.impulse = static_cast<double>(impulse.impulse);
   collision.approach_speed = static_cast<double>(impulse.approach_speed);
   collision.velocity_a = detail::rounded(a.motion.velocity);

@@ -241,8 +241,10 @@ void BasicWorld<S, Laws>::process_own_event(Slot slot, const Time<S>& instant) {
   if (body.support != kNoId) {  // the end of the wall
     rebase(slot, instant);
     const Id wall = body.support;
+    const Image image = rest_images(slot).support;
     let_go(slot);
     body.slid_off = wall;
+    set_rest_images(slot, {.support = {}, .second_support = {}, .slid_off = image});
     renew_law(slot);
     predict(slot, /*changed=*/true);
     return;
@@ -427,7 +429,7 @@ DoubleWord<S> BasicWorld<S, Laws>::twice_spin_energy(const Body<S, Laws>& body) 
 template <class S, class Laws>
 template <class Sink>
 void BasicWorld<S, Laws>::write_body_part(Sink& sink, Slot slot, const Effects& kind) const {
-  const LawsKind laws = laws_for(kind);
+  const LawsKind laws = laws_for(kind, is_periodic());
   const Rotation rotation = rotation_of(slot);
   sink.word(std::bit_cast<std::uint64_t>(rotation.angle));
   if (laws == LawsKind::Plain) {
@@ -456,6 +458,13 @@ void BasicWorld<S, Laws>::write_body_part(Sink& sink, Slot slot, const Effects& 
     } else {
       for (int i = 0; i < 3; ++i) sink.word(kNoId);
     }
+    if (is_periodic()) {
+      const RestImages images = rest_images(slot);
+      for (const Image& k : {images.support, images.second_support, images.slid_off}) {
+        sink.word(static_cast<std::uint64_t>(k.x));
+        sink.word(static_cast<std::uint64_t>(k.y));
+      }
+    }
   }
   if (kind.thermostat) write_kicks(sink, slot, *kind.thermostat);
 }
@@ -475,6 +484,14 @@ void BasicWorld<S, Laws>::read_body_part(ByteSource& source, Slot slot) {
     at(slot).support = source.word();
     at(slot).second_support = source.word();
     at(slot).slid_off = source.word();
+    if (is_periodic()) {
+      RestImages images;
+      for (Image* k : {&images.support, &images.second_support, &images.slid_off}) {
+        k->x = static_cast<std::int64_t>(source.word());
+        k->y = static_cast<std::int64_t>(source.word());
+      }
+      set_rest_images(slot, images);
+    }
   }
   read_kicks(source, slot);
 }

@@ -29,6 +29,7 @@ bool BasicWorld<S, Laws>::interacts(Slot a, Slot b) const {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::may_become_close(Slot a, Slot b) const {
   if (!interacts(a, b)) return false;
+  if (is_periodic()) return true;
   if (at(a).is_wall()) return !is_far_from_line(a, neighbours_.box_of(b));
   if (at(b).is_wall()) return !is_far_from_line(b, neighbours_.box_of(a));
   return true;
@@ -70,6 +71,12 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
   } else if (at(slot).is_dynamic()) {
     for (const Slot other : neighbours_.of(slot)) visit(other);
   } else {
+    if constexpr (!Laws::kPlain) {
+      if (is_periodic()) {
+        for (const Slot other : found_around(slot)) visit(other);
+        return;
+      }
+    }
     neighbours_.query(neighbours_.box_of(slot), [&](Slot other) {
       if (may_become_close(slot, other)) visit(other);
     });
@@ -77,18 +84,21 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
 }
 
 template <class S, class Laws>
-auto BasicWorld<S, Laws>::relative_motion(Slot of, Slot from, const Time<S>& reference) const
-    -> Relative {
+auto BasicWorld<S, Laws>::relative_motion(Slot of,
+                                          Slot from,
+                                          const Time<S>& reference,
+                                          const Which& image) const -> Relative {
   if constexpr (Laws::kDragged) {
     const Flight<S> a = flight_of(of, reference);
     const Flight<S> b = flight_of(from, reference);
-    return {{a.position - b.position,
+    return {{apart(a.position, b.position, image),
              a.velocity - b.velocity,
              at(of).acceleration - at(from).acceleration,
              velocity_grain(a.velocity, b.velocity)},
             laws_.drag};
   }
-  const DoubleWord2<S> position = position_of(of, reference) - position_of(from, reference);
+  const DoubleWord2<S> position =
+      apart(position_of(of, reference), position_of(from, reference), image);
   const DoubleWord2<S> v = velocity_of(of, reference);
   const DoubleWord2<S> u = velocity_of(from, reference);
   if constexpr (Laws::kCurved) {
@@ -99,15 +109,17 @@ auto BasicWorld<S, Laws>::relative_motion(Slot of, Slot from, const Time<S>& ref
 }
 
 template <class S, class Laws>
-auto BasicWorld<S, Laws>::disk_disk_contact_of(Slot a, Slot b) const -> std::optional<Contact> {
+auto BasicWorld<S, Laws>::disk_disk_contact_of(Slot a, Slot b, const Which& image) const
+    -> std::optional<Contact> {
   Contact contact{.a = a,
                   .b = b,
                   .kind = EventKind::DiskDisk,
                   .feature = WallFeature::Face,
                   .reference = std::max(at(a).motion.since, at(b).motion.since),
                   .relative = {},
-                  .after_reference = {}};
-  contact.relative = relative_motion(b, a, contact.reference);
+                  .after_reference = {},
+                  .image = image};
+  contact.relative = relative_motion(b, a, contact.reference, image);
   const auto after = Laws::pair_contact(
       contact.relative, reach_between(a, b, contact.reference), valid_for(a, b, contact.reference));
   if (!after) return std::nullopt;
@@ -146,12 +158,12 @@ bool BasicWorld<S, Laws>::hidden_by_faces(const Relative& from_vertex,
 }
 
 template <class S, class Laws>
-auto BasicWorld<S, Laws>::disk_wall_contact_of(Slot disk, Slot wall) const
+auto BasicWorld<S, Laws>::disk_wall_contact_of(Slot disk, Slot wall, const Which& image) const
     -> std::optional<Contact> {
   const Body<S, Laws>& d = at(disk);
   const Body<S, Laws>& w = at(wall);
   const Time<S> reference = std::max(d.motion.since, w.motion.since);
-  const Relative from_start = relative_motion(disk, wall, reference);
+  const Relative from_start = relative_motion(disk, wall, reference, -image);
   const S valid = valid_for(disk, wall, reference);
   const auto radius = radius_in_contact(disk, reference);
   std::optional<Contact> best;
@@ -160,11 +172,12 @@ auto BasicWorld<S, Laws>::disk_wall_contact_of(Slot disk, Slot wall) const
         const bool sooner =
             !best || after.hi < best->after_reference.hi ||
             (after.hi == best->after_reference.hi && after.lo < best->after_reference.lo);
-        if (sooner) best = Contact{disk, wall, kind, feature, reference, relative, after};
+        if (sooner) best = Contact{disk, wall, kind, feature, reference, relative, after, image};
       };
   // A disk that has slid off a face at an end does not come back to it but by way of that end.
   bool has_left_face = false;
-  if constexpr (Laws::kCurved) has_left_face = d.slid_off == w.id;
+  if constexpr (Laws::kCurved)
+    has_left_face = d.slid_off == w.id && rest_images(disk).slid_off == image;
   if (!has_left_face) {
     if (const auto after = Laws::face_contact(from_start, shape(wall).edge, radius, valid)) {
       consider(EventKind::DiskWall, WallFeature::Face, from_start, *after);
@@ -182,36 +195,52 @@ auto BasicWorld<S, Laws>::disk_wall_contact_of(Slot disk, Slot wall) const
 
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::contact_of(Slot i, Slot j) const -> std::optional<Contact> {
-  if constexpr (Laws::kCurved) {
-    if (rests_on(i, j)) return std::nullopt;
+  const bool as_they_stand = at(j).is_wall() || (!at(i).is_wall() && at(i).id < at(j).id);
+  const Slot a = as_they_stand ? i : j;
+  const Slot b = as_they_stand ? j : i;
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) return first_contact_of(a, b);
   }
-  if (at(j).is_wall()) return disk_wall_contact_of(i, j);
-  if (at(i).is_wall()) return disk_wall_contact_of(j, i);
-  return at(i).id < at(j).id ? disk_disk_contact_of(i, j) : disk_disk_contact_of(j, i);
+  return contact_with(a, b, {});
+}
+
+// REQUIRES: in the order of a Contact.
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::contact_with(Slot a, Slot b, const Which& image) const
+    -> std::optional<Contact> {
+  if constexpr (Laws::kCurved) {
+    if (rests_on(a, b, image)) return std::nullopt;
+  }
+  return at(b).is_wall() ? disk_wall_contact_of(a, b, image) : disk_disk_contact_of(a, b, image);
 }
 
 template <class S, class Laws>
 std::optional<Event<S>> BasicWorld<S, Laws>::event_with(Slot holder, Slot partner) const {
   const std::optional<Contact> contact = contact_of(holder, partner);
   if (!contact) return std::nullopt;
+  return event_of(*contact, partner);
+}
+
+template <class S, class Laws>
+std::optional<Event<S>> BasicWorld<S, Laws>::event_of(const Contact& contact, Slot partner) const {
   const auto instant =
-      later_by(contact->reference, contact->after_reference.hi, contact->after_reference.lo);
+      later_by(contact.reference, contact.after_reference.hi, contact.after_reference.lo);
   if (!instant) return std::nullopt;
-  return Event<S>{*instant, partner, at(partner).changes, contact->kind, at(partner).id};
+  return Event<S>{*instant, partner, at(partner).changes, contact.kind, at(partner).id};
 }
 
 // When the body's displacement from its box's anchor reaches the margin, a little early.
 template <class S, class Laws>
 Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const {
   Event<S> event;
-  if (all_pairs()) return event;
+  if (all_pairs() && !is_periodic()) return event;
   double pull = 0;
   if constexpr (Laws::kCurved) pull = pull_of(slot);
   const double growth = growth_of(slot);
   if (here.vx == 0 && here.vy == 0 && pull == 0 && growth == 0) return event;
   constexpr double kEarly = 1 - kScreenSlack<S>;
-  const Neighbours::Anchor& anchor = neighbours_.anchor(slot);
-  double margin = neighbours_.margin(slot) * kEarly;
+  const Neighbours::Anchor& anchor = anchor_of(slot);
+  double margin = margin_of(slot) * kEarly;
   if constexpr (Laws::kGrows) margin -= radius_now(slot) - at(slot).boxed_radius;
   const double moved_x = (here.x - anchor.x) + (here.x_low - anchor.x_low);
   const double moved_y = (here.y - anchor.y) + (here.y_low - anchor.y_low);
@@ -249,9 +278,17 @@ bool BasicWorld<S, Laws>::may_meet(Slot slot,
                                    const Glance& here,
                                    Slot other,
                                    double horizon) const {
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) return may_meet_some_image(slot, here, other, horizon);
+  }
+  return may_meet_at(slot, here, other, glance_of(other), horizon);
+}
+
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::may_meet_at(
+    Slot slot, const Glance& here, Slot other, const Glance& there, double horizon) const {
   const Body<S, Laws>& own = at(slot);
   const Body<S, Laws>& theirs = at(other);
-  const Glance there = glance_of(other);
   double bend = 0;  // by how far accelerations can lead off the straight line, or disks grow, m
   if (fly_straight(slot, other)) {
     if constexpr (Laws::kDragged)
@@ -316,8 +353,12 @@ void BasicWorld<S, Laws>::predict(Slot slot, bool changed) {
 /// The body's extent at now(), in doubles, and what rounding may add to it.
 template <class S, class Laws>
 Aabb BasicWorld<S, Laws>::tight_box(Slot slot) const {
+  return tight_box(slot, glance_of(slot));
+}
+
+template <class S, class Laws>
+Aabb BasicWorld<S, Laws>::tight_box(Slot slot, const Glance& here) const {
   const Body<S, Laws>& body = at(slot);
-  const Glance here = glance_of(slot);
   const double x = here.x + here.x_low;
   const double y = here.y + here.y_low;
   const double r = radius_now(slot) * (1 + kScreenSlack<S>)+here.error;
@@ -343,11 +384,17 @@ double BasicWorld<S, Laws>::smallest_margin(Slot slot) const {
 
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
-  if (all_pairs()) return;
   const Role role = at(slot).is_wall()      ? Role::Wall
                     : at(slot).is_dynamic() ? Role::DynamicDisk
                                             : Role::FixedDisk;
   if constexpr (Laws::kGrows) at(slot).boxed_radius = radius_now(slot);
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) {
+      renew_cage(slot, role, margin);
+      return;
+    }
+  }
+  if (all_pairs()) return;
   neighbours_.renew(slot,
                     role,
                     tight_box(slot),

@@ -38,7 +38,7 @@ BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {
   state.id = body.id;
   state.kind = kind_of(body.type);
   state.instant = to_instant(now_);
-  state.position = detail::rounded(position_of(slot, now_));
+  state.position = shown(position_of(slot, now_));
   state.velocity = detail::rounded(velocity_of(slot, now_));
   state.radius = radius_now(slot);
   if (!Laws::kPlain || !rotations_.empty()) {
@@ -52,14 +52,13 @@ BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {
 
 template <class S, class Laws>
 WallState BasicWorld<S, Laws>::wall_of(Slot slot) const {
-  const Body<S, Laws>& body = at(slot);
-  const DoubleWord2<S> start = position_of(slot, now_);
-  const DoubleWord2<S>& edge = shape(slot).edge;
-  return {body.id,
-          to_instant(now_),
-          detail::rounded(start),
-          detail::rounded(DoubleWord2<S>{start.x + edge.x, start.y + edge.y}),
-          detail::rounded(body.motion.velocity)};
+  const Motion<S>& motion = at(slot).motion;
+  return detail::shown_wall(at(slot).id,
+                            to_instant(now_),
+                            position_of(slot, now_),
+                            shape(slot).edge,
+                            motion.velocity,
+                            period_words());
 }
 
 template <class S, class Laws>
@@ -152,6 +151,15 @@ bool BasicWorld<S, Laws>::touches(Slot slot, const Vector2& low, const Vector2& 
 template <class S, class Laws>
 std::vector<Id> BasicWorld<S, Laws>::region(const Vector2& low, const Vector2& high) const {
   std::vector<Id> inside;
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) {
+      const Aabb box = space_.in_one_cell(low, high);
+      for (const Slot slot : ordered_slots()) {
+        if (some_image_touches(slot, box)) inside.push_back(at(slot).id);
+      }
+      return inside;
+    }
+  }
   if (all_pairs()) {
     for (const Slot slot : ordered_slots()) {
       if (touches(slot, low, high)) inside.push_back(at(slot).id);
@@ -179,7 +187,11 @@ template <class S, class Laws>
 std::vector<Near> BasicWorld<S, Laws>::nearest(const Vector2& point, std::size_t count) const {
   std::vector<Near> all;
   all.reserve(slots_.size());
-  for (const Slot slot : ordered_slots()) all.push_back({at(slot).id, distance_to(slot, point)});
+  for (const Slot slot : ordered_slots()) {
+    all.push_back(
+        {at(slot).id,
+         is_periodic() ? distance_to_nearest_image(slot, point) : distance_to(slot, point)});
+  }
   count = std::min(count, all.size());
   std::partial_sort(all.begin(),
                     all.begin() + static_cast<std::ptrdiff_t>(count),
@@ -255,6 +267,7 @@ std::optional<RayHit> BasicWorld<S, Laws>::ray(const Vector2& origin,
   const double length = direction.stableNorm();
   if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
   const Vector2 unit = direction / length;
+  if (is_periodic()) return ray_among_images(origin, unit, length_max);
   std::optional<RayHit> first;
   for (const Slot slot : ordered_slots()) {
     const auto hit = ray_meets(slot, origin, unit);

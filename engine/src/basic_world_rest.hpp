@@ -16,14 +16,41 @@
 
 namespace stoss::engine {
 
-/// Is the pair a disk and what it slides or lies on? They have no contacts with each other.
+/// Are a and the image of b a disk and what it slides or lies on? They have no contacts with each
+/// other.
 template <class S, class Laws>
-bool BasicWorld<S, Laws>::rests_on(Slot a, Slot b) const {
-  const auto bears = [this](Slot disk, Slot support) {
+bool BasicWorld<S, Laws>::rests_on(Slot a, Slot b, const Which& image) const {
+  const auto bears = [this](Slot disk, Slot support, const Which& k) {
     const Id id = at(support).id;
-    return at(disk).support == id || at(disk).second_support == id;
+    return (at(disk).support == id && rest_images(disk).support == k) ||
+           (at(disk).second_support == id && rest_images(disk).second_support == k);
   };
-  return bears(a, b) || bears(b, a);
+  return bears(a, b, image) || bears(b, a, -image);
+}
+
+template <class S, class Laws>
+RestImages BasicWorld<S, Laws>::rest_images([[maybe_unused]] Slot disk) const {
+  if constexpr (!Laws::kPlain) {
+    if (index(disk) < space_.rests.size()) return space_.rests[index(disk)];
+  }
+  return {};
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::set_rest_images([[maybe_unused]] Slot disk,
+                                          [[maybe_unused]] const RestImages& images) {
+  if constexpr (Laws::kCurved) {
+    if (!is_periodic()) return;
+    if (index(disk) >= space_.rests.size()) space_.rests.resize(index(disk) + 1);
+    space_.rests[index(disk)] = images;
+  }
+}
+
+/// Does the disk rest on the support, whichever image of it?
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_held_by(Slot disk, Slot support) const {
+  const Id id = at(support).id;
+  return at(disk).support == id || at(disk).second_support == id;
 }
 
 /// Ends a rest: the disk falls freely from here on. The caller writes its motion and its law.
@@ -33,6 +60,7 @@ void BasicWorld<S, Laws>::let_go([[maybe_unused]] Slot slot) {
     at(slot).support = kNoId;
     at(slot).second_support = kNoId;
     at(slot).slid_off = kNoId;
+    set_rest_images(slot, {});
   }
 }
 
@@ -68,10 +96,9 @@ S BasicWorld<S, Laws>::hop_speed(const Contact& contact,
   return elastic.approach_speed * restitution < speed ? speed : S(0);
 }
 
-/// The support that holds a slow disk up together with the one it has just met; kNoId where that
-/// one is enough.
+/// The support that holds a slow disk up together with the one it has just met.
 template <class S, class Laws>
-std::optional<Id> BasicWorld<S, Laws>::finds_hold(const Contact& contact) const {
+auto BasicWorld<S, Laws>::finds_hold(const Contact& contact) const -> std::optional<Hold> {
   constexpr double kTouching = 1e-9;  // of the radius; chosen: far above a last bounce's height
   const bool a_falls = at(contact.a).is_dynamic();
   const Slot disk = a_falls ? contact.a : contact.b;
@@ -79,18 +106,20 @@ std::optional<Id> BasicWorld<S, Laws>::finds_hold(const Contact& contact) const 
   const DoubleWord2<S> slip = velocity_of(disk, now_) - velocity_of(first, now_);
   if (!(detail::sum_norm(slip) <= S(2) * laws_.rest_speed)) return std::nullopt;
   const Vector2 down = detail::rounded(pull_towards(first));
-  const Vector2 up_from_first = -normal_towards(disk, first);
+  const Which image_of_first = a_falls ? contact.image : -contact.image;
+  const Vector2 up_from_first = -normal_towards(disk, first, image_of_first);
   if (contact.kind != EventKind::DiskWall && holds_up(down, up_from_first, up_from_first)) {
-    return kNoId;
+    return Hold{};
   }
-  std::optional<Id> hold;
-  for_each_neighbour(disk, [&](Slot other) {
-    if (other == first || at(other).is_dynamic()) return;
-    if (hold && at(other).id > *hold) return;
-    if (clearance(disk, other) > kTouching * static_cast<double>(at(disk).radius)) return;
+  std::optional<Hold> hold;
+  for_each_neighbour_image(disk, [&](Slot other, const Which& image) {
+    if ((other == first && image == image_of_first) || at(other).is_dynamic()) return;
+    if (hold && at(other).id > hold->id) return;
+    if (clearance(disk, other, image) > kTouching * static_cast<double>(at(disk).radius)) return;
     const DoubleWord2<S> apart = velocity_of(first, now_) - velocity_of(other, now_);
     if (detail::sum_norm(apart) > S(0)) return;
-    if (holds_up(down, up_from_first, -normal_towards(disk, other))) hold = at(other).id;
+    const Vector2 up_from_other = -normal_towards(disk, other, image);
+    if (holds_up(down, up_from_first, up_from_other)) hold = Hold{at(other).id, image};
   });
   return hold;
 }
@@ -101,12 +130,17 @@ void BasicWorld<S, Laws>::settle_down(const Contact& contact) {
   const bool a_falls = at(contact.a).is_dynamic();
   const Slot disk = a_falls ? contact.a : contact.b;
   const Slot support = a_falls ? contact.b : contact.a;
-  const std::optional<Id> hold = finds_hold(contact);
+  const std::optional<Hold> hold = finds_hold(contact);
   at(disk).support = at(support).id;
+  RestImages images;
+  images.support = a_falls ? contact.image : -contact.image;
   if (hold) {
-    at(disk).second_support = *hold != kNoId ? *hold : at(support).id;
+    const bool is_another = hold->id != kNoId;
+    at(disk).second_support = is_another ? hold->id : at(support).id;
+    images.second_support = is_another ? hold->image : images.support;
     at(disk).motion.velocity = velocity_of(support, now_);
   }
+  set_rest_images(disk, images);
   renew_law(disk);
 }
 
@@ -119,7 +153,9 @@ void BasicWorld<S, Laws>::renew_rest(Slot slot) {
   if (body.second_support != kNoId) return;
   const DoubleWord2<S>& edge = shape(support).edge;
   const DoubleWord2<S> pull = pull_along(pull_towards(support), edge);
-  const DoubleWord2<S> from_start = body.motion.position - position_of(support, body.motion.since);
+  const DoubleWord2<S> from_start = apart(body.motion.position,
+                                          position_of(support, body.motion.since),
+                                          -rest_images(slot).support);
   const DoubleWord2<S> slip = body.motion.velocity - velocity_of(support, body.motion.since);
   if constexpr (Laws::kDragged) {
     body.acceleration = body.acceleration + pull;
@@ -153,7 +189,7 @@ template <class S, class Laws>
 std::vector<Slot> BasicWorld<S, Laws>::wake_disks_on(Slot support) {
   std::vector<Slot> woken;
   for_each_neighbour(support, [&](Slot other) {
-    if (at(other).is_dynamic() && rests_on(other, support)) woken.push_back(other);
+    if (at(other).is_dynamic() && is_held_by(other, support)) woken.push_back(other);
   });
   for (const Slot disk : woken) {
     rebase(disk, now_);

@@ -52,7 +52,7 @@ Outcome<std::unique_ptr<WorldCore>> BasicWorld<S, Laws>::with_effects(const Effe
     stage.let_go(slot);
   }
   std::unique_ptr<WorldCore> switched =
-      make_core_in<S>({to_instant(now_), arithmetic_, broad_phase_, wanted});
+      make_core_in<S>({to_instant(now_), arithmetic_, broad_phase_, wanted, period()});
   if (const auto read = switched->restore(stage.bytes_for(wanted)); !read) {
     return Reject{.code = Code::FailedPrecondition,
                   .field = "effects",

@@ -81,4 +81,17 @@ std::optional<Reject> check_effects(const Effects& effects) {
   return std::nullopt;
 }
 
+std::optional<Reject> check_period(const Vector2& period) {
+  constexpr double kShortest = 1e-20;  // m; chosen: speeds and places then stay in range of float
+  constexpr double kLongest = 1e20;
+  const auto check = [&](const char* field, double length) -> std::optional<Reject> {
+    if (length == 0 || (length >= kShortest && length <= kLongest)) return std::nullopt;
+    return Reject{.code = Code::InvalidArgument,
+                  .field = field,
+                  .reason = "must be 0 (open), or from 1e-20 to 1e20 m"};
+  };
+  if (auto reject = check("period.x", period.x())) return reject;
+  return check("period.y", period.y());
+}
+
 }  // namespace stoss::engine

@@ -2,7 +2,7 @@
 #pragma once
 
 // A world's identity in canonical bytes: one word with the arithmetic and which effects are on,
-// then their numbers. Without effects it is the arithmetic alone.
+// then their numbers, and the periods last. Without any it is the arithmetic alone.
 
 #include "bytes.hpp"
 
@@ -17,6 +17,7 @@ namespace stoss::engine {
 struct WorldIdentity {
   Arithmetic arithmetic = Arithmetic::Double;
   Effects effects;
+  Vector2 period = Vector2::Zero();
   friend bool operator==(const WorldIdentity&, const WorldIdentity&) = default;
 };
 
@@ -62,7 +63,8 @@ inline void read_number(ByteSource& source, Vector2& v) {
 }
 
 inline constexpr int kFirstEffectBit = 8;
-inline constexpr std::uint64_t kEffectBits = 0b1111111;
+inline constexpr std::uint64_t kEffectBits = 0b1111'1111;
+inline constexpr std::uint64_t kPeriodBit = 1 << 7;  // like an effect, after them all
 
 }  // namespace detail
 
@@ -72,10 +74,13 @@ void write_identity(Sink& sink, const WorldIdentity& identity) {
   detail::for_each_effect(identity.effects, [&](int bit, const auto& effect, auto...) {
     if (effect) word |= std::uint64_t{1} << (detail::kFirstEffectBit + bit);
   });
+  const bool is_periodic = identity.period != Vector2::Zero();
+  if (is_periodic) word |= detail::kPeriodBit << detail::kFirstEffectBit;
   sink.word(word);
   detail::for_each_effect(identity.effects, [&](int, const auto& effect, auto... number) {
     if (effect) (detail::write_number(sink, (*effect).*number), ...);
   });
+  if (is_periodic) detail::write_number(sink, identity.period);
 }
 
 /// Nothing if the word is none that write_identity() writes, or the effects are impossible.
@@ -85,13 +90,16 @@ inline std::optional<WorldIdentity> read_identity(ByteSource& source) {
   const std::uint64_t mask = word >> detail::kFirstEffectBit;
   if (arithmetic > static_cast<std::uint64_t>(Arithmetic::Float128)) return std::nullopt;
   if ((mask & ~detail::kEffectBits) != 0) return std::nullopt;
-  WorldIdentity identity{static_cast<Arithmetic>(arithmetic), {}};
+  WorldIdentity identity{static_cast<Arithmetic>(arithmetic), {}, Vector2::Zero()};
   detail::for_each_effect(identity.effects, [&](int bit, auto& effect, auto... number) {
     if (((mask >> bit) & 1) == 0) return;
     effect.emplace();
     (detail::read_number(source, (*effect).*number), ...);
   });
-  if (source.ran_out() || check_effects(identity.effects)) return std::nullopt;
+  if ((mask & detail::kPeriodBit) != 0) detail::read_number(source, identity.period);
+  if (source.ran_out() || check_effects(identity.effects) || check_period(identity.period)) {
+    return std::nullopt;
+  }
   return identity;
 }
 

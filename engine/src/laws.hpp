@@ -27,9 +27,9 @@ namespace stoss::engine {
 /// Named after the laws below.
 enum class LawsKind { Plain, Contact, Growing, Accelerated, Dragged };
 
-/// The least that has all these effects.
-constexpr LawsKind laws_for(const Effects& effects) {
-  if (effects == Effects{}) return LawsKind::Plain;
+/// The least that has all these effects, in a periodic world or an open one.
+constexpr LawsKind laws_for(const Effects& effects, bool is_periodic = false) {
+  if (effects == Effects{} && !is_periodic) return LawsKind::Plain;
   if (effects.growth) return LawsKind::Growing;
   if (effects.drag && effects.drag->rate > 0) return LawsKind::Dragged;
   if (effects.gravity || effects.floor_friction) return LawsKind::Accelerated;

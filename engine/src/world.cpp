@@ -3,6 +3,7 @@
 #include "motion_law/accelerated.hpp"
 #include "motion_law/drag.hpp"
 #include "motion_law/growth.hpp"
+#include "periodic.hpp"
 #include "world_core.hpp"
 
 #include <stoss/engine/motion.hpp>
@@ -16,6 +17,9 @@ namespace stoss::engine {
 
 World::World(const WorldOptions& options) {
   if (const auto reject = check_effects(options.effects)) {
+    throw std::invalid_argument(reject->field + " " + reject->reason);
+  }
+  if (const auto reject = check_period(options.period)) {
     throw std::invalid_argument(reject->field + " " + reject->reason);
   }
   core_ = make_core(options);
@@ -34,6 +38,7 @@ Instant World::now() const { return core_->now(); }
 Arithmetic World::arithmetic() const { return core_->arithmetic(); }
 BroadPhaseKind World::broad_phase() const { return core_->broad_phase(); }
 Effects World::effects() const { return core_->effects(); }
+Vector2 World::period() const { return core_->period(); }
 std::size_t World::disk_count() const { return core_->disk_count(); }
 std::size_t World::wall_count() const { return core_->wall_count(); }
 Counters World::counters() const { return core_->counters(); }
@@ -106,7 +111,8 @@ Outcome<World> World::deserialise(std::span<const std::byte> bytes, BroadPhaseKi
   World world(WorldOptions{.start = {},
                            .arithmetic = identity->arithmetic,
                            .broad_phase = broad_phase,
-                           .effects = identity->effects});
+                           .effects = identity->effects,
+                           .period = identity->period});
   if (const auto restored = world.core_->restore(bytes); !restored) return restored.reject();
   return world;
 }
@@ -173,6 +179,31 @@ Vector2 position_in(const MotionRecord& record, const Instant& instant) {
 }
 
 template <class S>
+Vector2 shown_position_in(const MotionRecord& record,
+                          const Instant& instant,
+                          const Vector2& period) {
+  const DoubleWord2<S> position =
+      record.drag > 0
+          ? flight_in<S>(record, instant).position
+          : position_at(from_record<S>(record), acceleration_of<S>(record), instant);
+  return detail::shown(position, detail::stored<S>(period));
+}
+
+template <class S>
+WallState wall_in(const MotionRecord& record,
+                  const BodyRecord& body,
+                  const Instant& instant,
+                  const Vector2& period) {
+  const Motion<S> motion = from_record<S>(record);
+  return detail::shown_wall(record.id,
+                            instant,
+                            position_at(motion, from_instant<Time<S>>(instant)),
+                            {from_split<S>(body.edge_x), from_split<S>(body.edge_y)},
+                            motion.velocity,
+                            detail::stored<S>(period));
+}
+
+template <class S>
 Vector2 velocity_in(const MotionRecord& record, const Instant& instant) {
   if (record.drag > 0) return detail::rounded(flight_in<S>(record, instant).velocity);
   return detail::rounded(velocity_at(from_record<S>(record), acceleration_of<S>(record), instant));
@@ -209,6 +240,23 @@ double evaluate_radius(const MotionRecord& motion,
   if (motion.radius.high == 0) return body.radius;
   return arithmetic == Arithmetic::Float ? radius_in<float>(motion, instant)
                                          : radius_in<double>(motion, instant);
+}
+
+Vector2 evaluate(const MotionRecord& motion,
+                 Arithmetic arithmetic,
+                 const Instant& instant,
+                 const Vector2& period) {
+  return arithmetic == Arithmetic::Float ? shown_position_in<float>(motion, instant, period)
+                                         : shown_position_in<double>(motion, instant, period);
+}
+
+WallState evaluate_wall(const MotionRecord& motion,
+                        const BodyRecord& body,
+                        Arithmetic arithmetic,
+                        const Instant& instant,
+                        const Vector2& period) {
+  return arithmetic == Arithmetic::Float ? wall_in<float>(motion, body, instant, period)
+                                         : wall_in<double>(motion, body, instant, period);
 }
 
 double turned(double angle, double spin, const Instant& since, const Instant& instant) {

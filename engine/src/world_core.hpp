@@ -25,6 +25,7 @@ class WorldCore {
   virtual Arithmetic arithmetic() const = 0;
   virtual BroadPhaseKind broad_phase() const = 0;
   virtual Effects effects() const = 0;
+  virtual Vector2 period() const = 0;
   virtual std::size_t disk_count() const = 0;
   virtual std::size_t wall_count() const = 0;
   virtual Counters counters() const = 0;
@@ -68,8 +69,8 @@ class WorldCore {
   ChangeLog changes_;
 };
 
-/// The core of one arithmetic: a plain one, or one for the effects asked for. Each is a translation
-/// unit of its own (world_<arithmetic>.cpp and world_<arithmetic>_effects.cpp).
+/// The core of one arithmetic: a plain one, or one for the effects or periods asked for. Each is a
+/// translation unit of its own (world_<arithmetic>.cpp and world_<arithmetic>_effects.cpp).
 template <class S>
 std::unique_ptr<WorldCore> make_plain_core(const WorldOptions& options);
 template <class S>
@@ -77,7 +78,8 @@ std::unique_ptr<WorldCore> make_effects_core(const WorldOptions& options);
 
 template <class S>
 std::unique_ptr<WorldCore> make_core_in(const WorldOptions& options) {
-  return options.effects == Effects{} ? make_plain_core<S>(options) : make_effects_core<S>(options);
+  const bool is_plain = options.effects == Effects{} && options.period == Vector2::Zero();
+  return is_plain ? make_plain_core<S>(options) : make_effects_core<S>(options);
 }
 
 /// A core for Float, Double or LongDouble; null for an arithmetic that this library has not.

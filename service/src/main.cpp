@@ -98,7 +98,8 @@ DaemonOptions daemon_options(const Options& options, const Start& start) {
   result.publication = {.world = start.world,
                         .scene_name = start.scene.name(),
                         .frame_rate = options.frame_rate,
-                        .arithmetic = options.arithmetic};
+                        .arithmetic = options.arithmetic,
+                        .period = start.bodies.period};
   return result;
 }
 

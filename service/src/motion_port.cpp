@@ -29,9 +29,11 @@ std::vector<std::size_t> parts_of(std::span<const BodyChange> changes) {
 
 MotionPort::MotionPort(const dds::Publisher& publisher,
                        const Topics& topics,
-                       engine::Arithmetic arithmetic)
+                       engine::Arithmetic arithmetic,
+                       const engine::Vector2& period)
     : writer_(idl::make_writer(publisher, topics.motion, idl::kMotionTopic)),
-      arithmetic_(arithmetic) {}
+      arithmetic_(arithmetic),
+      period_(period) {}
 
 void MotionPort::begin_epoch(const Moment& moment, std::uint64_t state_hash) {
   number_ = 1;
@@ -69,6 +71,8 @@ void MotionPort::publish(const TickRecord& record) {
 
 void MotionPort::write_part(wire::MotionBatch& batch, std::span<const BodyChange> changes) {
   batch.arithmetic = idl::wire_value(translate::to_wire(arithmetic_));
+  batch.period_x = period_.x();
+  batch.period_y = period_.y();
   motions_.clear();
   statics_.clear();
   for (const BodyChange& change : changes) {

@@ -15,7 +15,10 @@ namespace stoss::service {
 
 class MotionPort {
  public:
-  MotionPort(const dds::Publisher& publisher, const Topics& topics, engine::Arithmetic arithmetic);
+  MotionPort(const dds::Publisher& publisher,
+             const Topics& topics,
+             engine::Arithmetic arithmetic,
+             const engine::Vector2& period);
 
   /// Starts the numbers anew with an empty batch, number 1, which tells subscribers that the world
   /// that they hold is gone.
@@ -33,6 +36,7 @@ class MotionPort {
 
   dds::Writer<wire::MotionBatch> writer_;
   engine::Arithmetic arithmetic_;
+  engine::Vector2 period_;
   std::uint64_t number_ = 0;
   translate::MotionColumns motions_;
   translate::StaticColumns statics_;

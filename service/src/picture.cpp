@@ -7,29 +7,6 @@
 #include <utility>
 
 namespace stoss::service {
-namespace {
-
-// The engine's own order: the start is evaluated, then the edge is added, then it is rounded once.
-template <class S>
-engine::Vector2 end_at(const Picture::Body& body, const engine::Instant& instant) {
-  const engine::DoubleWord2<S> start = engine::position_at(
-      engine::from_record<S>(body.motion), engine::from_instant<engine::Time<S>>(instant));
-  const auto rounded = [](const engine::DoubleWord<S>& value) {
-    return static_cast<double>(to_scalar(value));
-  };
-  return {rounded(start.x + engine::from_split<S>(body.record.edge_x)),
-          rounded(start.y + engine::from_split<S>(body.record.edge_y))};
-}
-
-engine::Vector2 end_at(const Picture::Body& body,
-                       engine::Arithmetic arithmetic,
-                       const engine::Instant& instant) {
-  return arithmetic == engine::Arithmetic::Float ? end_at<float>(body, instant)
-                                                 : end_at<double>(body, instant);
-}
-
-}  // namespace
-
 void Picture::begin(const EpochRecord& record) {
   bodies_.clear();
   index_.clear();
@@ -111,7 +88,7 @@ engine::BodyState Picture::state_of(const Body& body) const {
   return {.id = motion.id,
           .kind = body.record.kind,
           .instant = moment_.at,
-          .position = engine::evaluate(motion, arithmetic_, moment_.at),
+          .position = engine::evaluate(motion, arithmetic_, moment_.at, period_),
           .velocity = engine::evaluate_velocity(motion, arithmetic_, moment_.at),
           .angle = engine::turned(motion.angle, motion.spin, motion.since, moment_.at),
           .spin = motion.spin,
@@ -119,12 +96,7 @@ engine::BodyState Picture::state_of(const Body& body) const {
 }
 
 engine::WallState Picture::wall_of(const Body& body) const {
-  const engine::MotionRecord& motion = body.motion;
-  return {.id = motion.id,
-          .instant = moment_.at,
-          .start = engine::evaluate(motion, arithmetic_, moment_.at),
-          .end = end_at(body, arithmetic_, moment_.at),
-          .velocity = engine::evaluate_velocity(motion, arithmetic_, moment_.at)};
+  return engine::evaluate_wall(body.motion, body.record, arithmetic_, moment_.at, period_);
 }
 
 }  // namespace stoss::service

@@ -18,7 +18,9 @@ namespace stoss::service {
 
 class Picture {
  public:
-  explicit Picture(engine::Arithmetic arithmetic) : arithmetic_(arithmetic) {}
+  explicit Picture(engine::Arithmetic arithmetic,
+                   const engine::Vector2& period = engine::Vector2::Zero())
+      : arithmetic_(arithmetic), period_(period) {}
 
   void begin(const EpochRecord& record);
   void apply(const TickRecord& record);
@@ -27,6 +29,8 @@ class Picture {
   /// 0 when the record of the last change came without.
   [[nodiscard]] std::uint64_t state_hash() const { return state_hash_; }
   [[nodiscard]] engine::Arithmetic arithmetic() const { return arithmetic_; }
+  /// m; 0: open.
+  [[nodiscard]] const engine::Vector2& period() const { return period_; }
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
   /// The names of those that are on.
   [[nodiscard]] const std::vector<std::string>& effects() const { return effects_; }
@@ -55,6 +59,7 @@ class Picture {
   void name(const std::vector<NamedBody>& names);
 
   engine::Arithmetic arithmetic_;
+  engine::Vector2 period_;
   Moment moment_;
   std::uint64_t state_hash_ = 0;
   std::uint64_t scene_version_ = 0;

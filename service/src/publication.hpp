@@ -28,6 +28,7 @@ struct PublicationOptions {
   std::string scene_name;
   double frame_rate = 20;  ///< frames per real second, > 0
   engine::Arithmetic arithmetic = engine::Arithmetic::Double;
+  engine::Vector2 period = engine::Vector2::Zero();  ///< m; 0: open
 };
 
 /// What other threads know and the status tells.

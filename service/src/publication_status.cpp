@@ -68,6 +68,8 @@ void Publication::fill_status(const WorldStatus& status) {
   status_.verify_energy_error = status.verified.energy_error;
   status_.verify_momentum_error = status.verified.momentum_error;
   status_.arithmetic = idl::wire_value(translate::to_wire(status.arithmetic));
+  status_.period_x = status.period.x();
+  status_.period_y = status.period.y();
   idl::assign(status_.broad_phase, translate::name_of(status.broad_phase));
   idl::assign(status_.version, STOSS_VERSION);
   idl::assign(status_.build, kCompiler);

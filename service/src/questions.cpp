@@ -192,6 +192,7 @@ std::vector<std::string> features(const engine::Effects& on) {
   for (const std::string_view effect : translate::engine_effects()) {
     words.push_back("effect:" + std::string(effect));
   }
+  words.emplace_back("world:periodic");
   for (const engine::Refusal& refusal : engine::refused_combinations()) {
     words.push_back("refused:" + std::string(refusal.effect) + "+" + std::string(refusal.other));
   }

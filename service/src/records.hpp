@@ -140,6 +140,7 @@ struct WorldStatus {
   std::uint64_t verify_period = 0;  ///< 0: the world is not verified
   engine::Verification verified{};
   engine::Arithmetic arithmetic = engine::Arithmetic::Double;
+  engine::Vector2 period = engine::Vector2::Zero();
   engine::BroadPhaseKind broad_phase = engine::BroadPhaseKind::Neighbours;
 };
 

@@ -94,6 +94,8 @@ void ScenePort::write_chunk(const Picture& picture,
   idl::assign(sample.world, world_);
   idl::assign(sample.scene_name, scene_name_);
   sample.at = translate::to_wire(picture.moment().at);
+  sample.period_x = picture.period().x();
+  sample.period_y = picture.period().y();
   static_assert(sizeof(idl::Element<decltype(sample.effects)>) == sizeof(Word));
   sample.effects._buffer = columns.effects.empty() ? nullptr : &columns.effects.front().text;
   sample.effects._length = static_cast<std::uint32_t>(columns.effects.size());

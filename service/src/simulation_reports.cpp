@@ -264,6 +264,7 @@ void Simulation::report_status(idl::WorldState state) {
   status_.ticks_late = pacer_.ticks_late();
   status_.ticks_slipped = pacer_.ticks_slipped();
   status_.arithmetic = world_.arithmetic();
+  status_.period = world_.period();
   if (verifier_) {
     status_.verify_period = verifier_->period();
     status_.verified = verifier_->found();

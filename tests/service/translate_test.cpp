@@ -211,7 +211,11 @@ TEST(Translate, ASceneBecomesItsWorld) {
   EXPECT_EQ(make_world(zoned, {}).reject().field, "zones");
   Scene periodic = scene;
   periodic.mutable_period()->set_x(10);
-  EXPECT_EQ(make_world(periodic, {}).reject().field, "period.x");
+  const auto repeating = make_world(periodic, {});
+  ASSERT_TRUE(repeating.ok());
+  EXPECT_EQ(repeating.value().period(), engine::Vector2(10, 0));
+  periodic.mutable_period()->set_y(1e-30);
+  EXPECT_EQ(make_world(periodic, {}).reject().field, "period.y");
 }
 
 }  // namespace

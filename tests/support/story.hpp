@@ -36,7 +36,8 @@ struct Story {
   double length = 1;        ///< s
   bool conserves_energy = false;
   bool conserves_momentum = false;
-  bool is_closed = false;  ///< walls all around: nobody gets out of [low, high]
+  bool is_closed = false;            ///< walls all around: nobody gets out of [low, high]
+  Vector2 period = Vector2::Zero();  ///< m; 0: open
   Vector2 low = Vector2::Zero();
   Vector2 high = Vector2::Zero();
 };
@@ -109,8 +110,10 @@ inline Result play(const Story& story, const Run& run = {}) {
   const Instant start{run.start, 0};
   Result result{{},
                 {},
-                World(engine::WorldOptions{
-                    .start = start, .arithmetic = run.arithmetic, .broad_phase = run.broad_phase})};
+                World(engine::WorldOptions{.start = start,
+                                           .arithmetic = run.arithmetic,
+                                           .broad_phase = run.broad_phase,
+                                           .period = story.period})};
   World& world = result.world;
   detail::spawn_first(world, story, run);
   Log log;
@@ -143,6 +146,8 @@ inline Result play(const Story& story, const Run& run = {}) {
 /// Makes stories: each call is another one. What is random is drawn from `random` alone.
 class StoryTeller {
  public:
+  static constexpr std::uint64_t kKinds = 7;
+
   explicit StoryTeller(std::uint64_t seed) : random_(seed) {}
 
   /// Disks of radii up to 1:1000 in a box, among obstacles; all elastic and at rest around.
@@ -234,6 +239,39 @@ class StoryTeller {
     return story;
   }
 
+  /// A world that repeats itself along one axis or both: alone, among walls that close around it,
+  /// cross its border or sweep through it.
+  Story periodic() {
+    Story story;
+    story.name = "periodic";
+    const double height = random_.one_in(2) ? 20 : random_.uniform(8, 30);
+    story.period = {20, height};
+    story.low = {-10, -8};
+    story.high = {10, height - 8};
+    const bool is_alone = random_.one_in(3);
+    if (!is_alone) {
+      if (random_.one_in(2)) {  // a channel, with a step at its border
+        story.period.y() = 0;
+        const double step = random_.uniform(0, 1);
+        story.walls.push_back(wall(1000, {-12, -8}, {8, -8}));
+        story.walls.push_back(wall(1001, {10, height - 8}, {-10, height - 8 - step}));
+        story.walls.push_back(wall(1002, {10, height - 8}, {10, height - 8 - step}));
+      }
+      const Vector2 bent[] = {{7, 1}, {10.5, 2}, {13, random_.uniform(-3, 3)}, {14, 1}};
+      for (const WallSpec& w : chain(1100, bent)) story.walls.push_back(w);
+      story.walls.push_back(wall(1200,
+                                 {-3, random_.uniform(0, height)},
+                                 {-3.5, random_.uniform(0, height) + 2},
+                                 {random_.uniform(-0.4, 0.4), random_.uniform(-0.2, 0.2)}));
+    }
+    story.length = random_.uniform(3, 15);
+    scatter(story, 4 + random_.below(20), is_alone ? 0 : 8, is_alone ? 0 : 8);
+    story.conserves_energy = is_alone;
+    story.conserves_momentum = is_alone;
+    if (random_.one_in(2)) add_commands(story, 3 + random_.below(8));
+    return story;
+  }
+
   /// Any of them, with commands in flight.
   Story busy() {
     Story story;
@@ -261,7 +299,7 @@ class StoryTeller {
 
   /// Each kind in turn.
   Story any() {
-    switch (turn_++ % 6) {
+    switch (turn_++ % kKinds) {
       case 0:
         return gas();
       case 1:
@@ -272,6 +310,8 @@ class StoryTeller {
         return machines();
       case 4:
         return lattice();
+      case 5:
+        return periodic();
       default:
         return busy();
     }
@@ -344,7 +384,7 @@ class StoryTeller {
 
   /// Leaves the disks that fit when all are put in one after the other.
   static void remove_overlapping(Story& story) {
-    World world;
+    World world(engine::WorldOptions{.start = {}, .period = story.period});
     must_spawn(world, {}, story.walls);
     std::erase_if(story.disks, [&](const DiskSpec& d) {
       return !world.spawn({std::span(&d, 1), {}}).ok();

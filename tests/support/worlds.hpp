@@ -125,6 +125,20 @@ inline Vector2 apart(const engine::DoubleWord2<double>& a, const engine::DoubleW
   return {engine::to_scalar(d.x), engine::to_scalar(d.y)};
 }
 
+/// Calls visit(image) for the images of a place around the origin, for walls of up to a period.
+template <class Visit>
+void for_each_image(const Vector2& place, const Vector2& period, Visit&& visit) {
+  const auto reduced = [](double x, double length) {
+    return length > 0 ? std::remainder(x, length) : x;
+  };
+  const Vector2 near(reduced(place.x(), period.x()), reduced(place.y(), period.y()));
+  const int in_x = period.x() > 0 ? 2 : 0;
+  const int in_y = period.y() > 0 ? 2 : 0;
+  for (int x = -in_x; x <= in_x; ++x) {
+    for (int y = -in_y; y <= in_y; ++y) visit(Vector2(near + period.cwiseProduct(Vector2(x, y))));
+  }
+}
+
 /// Distance from the origin to the segment from `start` along `edge`.
 inline double distance_to_segment(const Vector2& start, const Vector2& edge) {
   const double s = std::clamp(-start.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
@@ -135,7 +149,7 @@ inline double distance_to_segment(const Vector2& start, const Vector2& edge) {
 }  // namespace detail
 
 /// The deepest overlap of a dynamic disk with anything, as a part of the distance at which they
-/// touch: 0 when nothing overlaps. Over all pairs.
+/// touch: 0 when nothing overlaps. Over all pairs and their images.
 inline double deepest_overlap(const World& world) {
   struct Item {
     engine::BodyRecord body;
@@ -156,9 +170,11 @@ inline double deepest_overlap(const World& world) {
       const double reach = items[i].body.radius + items[j].body.radius;
       const Vector2 d = detail::apart(items[j].position, items[i].position);
       const Vector2 edge(items[j].body.edge_x.high, items[j].body.edge_y.high);
-      const double distance =
-          items[j].body.is_wall ? detail::distance_to_segment(d, edge) : d.norm();
-      deepest = std::max(deepest, 1 - distance / reach);
+      detail::for_each_image(d, world.period(), [&](const Vector2& image) {
+        const double distance =
+            items[j].body.is_wall ? detail::distance_to_segment(image, edge) : image.norm();
+        deepest = std::max(deepest, 1 - distance / reach);
+      });
     }
   }
   return deepest;

@@ -27,10 +27,12 @@ translate::SceneBodies scene_bodies(const std::string& path) {
 }
 
 void refuse_effects(const translate::SceneBodies& bodies, const std::string& who) {
-  if (bodies.effects == engine::Effects{}) return;
-  throw RefusedError({.code = engine::Code::Unimplemented,
-                      .field = "effects",
-                      .reason = who + " knows uniform motion and elastic contacts only"});
+  const bool is_open = bodies.period == engine::Vector2::Zero();
+  if (bodies.effects == engine::Effects{} && is_open) return;
+  throw RefusedError(
+      {.code = engine::Code::Unimplemented,
+       .field = is_open ? "effects" : "period",
+       .reason = who + " knows uniform motion and elastic contacts in open space only"});
 }
 
 }  // namespace stoss::client::cli

@@ -31,26 +31,6 @@ std::uint32_t Neighbours::next_stamp() {
   return stamp_;
 }
 
-// Takes the box of a body out, if it has one, and remembers in before_ whom it has as neighbours.
-void Neighbours::take_out(Slot slot) {
-  const Entry& entry = entries_[index(slot)];
-  before_.clear();
-  const bool in_tree = tree_.contains(slot);
-  if (!in_tree && !grid_.contains(slot)) return;
-  if (entry.keeps_list()) {
-    before_.assign(of(slot).begin(), of(slot).end());
-  } else {
-    query(box_of(slot), [this](Slot other) {
-      if (entries_[index(other)].keeps_list()) before_.push_back(other);
-    });
-  }
-  if (in_tree) {
-    tree_.remove(slot);
-  } else {
-    grid_.remove(slot);
-  }
-}
-
 // Makes found_ the neighbours of `slot` in place of before_, in all lists.
 void Neighbours::replace_neighbours(Slot slot) {
   Entry& entry = entries_[index(slot)];
@@ -73,8 +53,8 @@ void Neighbours::replace_neighbours(Slot slot) {
   if (entry.keeps_list()) pool_.assign(entry.list, found_);
 }
 
-void Neighbours::remove(Slot slot) {
-  take_out(slot);
+// Takes a body whose box is out from all lists.
+void Neighbours::forget(Slot slot) {
   found_.clear();
   replace_neighbours(slot);
   pool_.release(entries_[index(slot)].list);

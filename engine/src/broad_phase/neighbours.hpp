@@ -27,14 +27,23 @@
 #include "broad_phase/list_pool.hpp"
 #include "screen.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace stoss::engine {
 
 /// What a body is to the broad phase.
 enum class Role : std::uint8_t { Wall, FixedDisk, DynamicDisk };
+/// The copies of a box to look for: in open space itself.
+struct NoCopies {
+  template <class Visit>
+  void operator()(const Aabb& box, const Visit& visit) const {
+    visit(box);
+  }
+};
 
 class Neighbours {
  public:
@@ -57,16 +66,18 @@ class Neighbours {
 
   /// Makes the box of a body afresh: `tight` is its extent and `here` its place now.
   /// `interacts(slot)` says whether the body can meet another whose box overlaps.
-  template <class Interacts>
+  /// `copies(box, visit)` calls visit for the box and for its images in a periodic world.
+  template <class Interacts, class Copies = NoCopies>
   void renew(Slot slot,
              Role role,
              const Aabb& tight,
              const Glance& here,
              double margin,
-             const Interacts& interacts) {
+             const Interacts& interacts,
+             const Copies& copies = {}) {
     reserve(slot);
     Entry& entry = entries_[index(slot)];
-    take_out(slot);
+    take_out(slot, copies);
     entry.role = role;
     entry.margin = margin;
     entry.anchor = {here.x, here.y, here.x_low, here.y_low};
@@ -78,13 +89,20 @@ class Neighbours {
       grid_.insert(slot, box);
     }
     found_.clear();
-    query(box, [&](Slot other) {
-      if (interacts(other)) found_.push_back(other);
+    copies(box, [&](const Aabb& copy) {
+      query(copy, [&](Slot other) {
+        if (interacts(other)) found_.push_back(other);
+      });
     });
+    if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(found_);
     replace_neighbours(slot);
   }
 
-  void remove(Slot slot);
+  template <class Copies = NoCopies>
+  void remove(Slot slot, const Copies& copies = {}) {
+    take_out(slot, copies);
+    forget(slot);
+  }
 
   /// Notes predictions made for a body since its last renewal.
   void note_work(Slot slot) {
@@ -128,7 +146,35 @@ class Neighbours {
   void reserve(Slot slot) {
     if (index(slot) >= entries_.size()) entries_.resize(index(slot) + 1);
   }
-  void take_out(Slot slot);
+  static void keep_each_once(std::vector<Slot>& slots) {
+    std::sort(slots.begin(), slots.end());
+    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  }
+
+  // Takes the box of a body out, if it has one, and remembers in before_ whom it has as neighbours.
+  template <class Copies>
+  void take_out(Slot slot, const Copies& copies) {
+    const Entry& entry = entries_[index(slot)];
+    before_.clear();
+    const bool in_tree = tree_.contains(slot);
+    if (!in_tree && !grid_.contains(slot)) return;
+    if (entry.keeps_list()) {
+      before_.assign(of(slot).begin(), of(slot).end());
+    } else {
+      copies(box_of(slot), [this](const Aabb& copy) {
+        query(copy, [this](Slot other) {
+          if (entries_[index(other)].keeps_list()) before_.push_back(other);
+        });
+      });
+      if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(before_);
+    }
+    if (in_tree) {
+      tree_.remove(slot);
+    } else {
+      grid_.remove(slot);
+    }
+  }
+  void forget(Slot slot);
   void replace_neighbours(Slot slot);
   std::uint32_t next_stamp();
 

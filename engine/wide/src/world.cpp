@@ -55,7 +55,8 @@ engine::Outcome<engine::World> deserialise(std::span<const std::byte> bytes,
   engine::World world = make_world({.start = {},
                                     .arithmetic = identity->arithmetic,
                                     .broad_phase = broad_phase,
-                                    .effects = identity->effects});
+                                    .effects = identity->effects,
+                                    .period = identity->period});
   if (const auto restored = world.core().restore(bytes); !restored) return restored.reject();
   return world;
 }

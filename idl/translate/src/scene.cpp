@@ -103,8 +103,6 @@ std::optional<Reject> unsupported(const Scene& scene) {
     }
   }
   if (!scene.zones().empty()) return unimplemented("zones", "this version has no zones");
-  if (scene.period().x() != 0) return unimplemented("period.x", "this version has open space only");
-  if (scene.period().y() != 0) return unimplemented("period.y", "this version has open space only");
   return std::nullopt;
 }
 
@@ -118,6 +116,8 @@ engine::Outcome<SceneBodies> bodies_of(const Scene& scene) {
     reject->field = "effects." + reject->field;
     return *std::move(reject);
   }
+  bodies.period = vector_of(scene.period());
+  if (auto reject = engine::check_period(bodies.period)) return *std::move(reject);
   bodies.disks.reserve(static_cast<std::size_t>(scene.disks_size()));
   bodies.disk_names.reserve(bodies.disks.capacity());
   for (const Disk& disk : scene.disks()) {
@@ -163,7 +163,8 @@ engine::Outcome<SceneWorld> make_world(const SceneBodies& bodies, const WorldCho
   engine::World world = wide::make_world({.start = bodies.start,
                                           .arithmetic = choice.arithmetic,
                                           .broad_phase = choice.broad_phase,
-                                          .effects = bodies.effects});
+                                          .effects = bodies.effects,
+                                          .period = bodies.period});
   auto made = world.spawn({bodies.disks, bodies.walls});
   if (!made) return made.reject();
   return SceneWorld{std::move(world), std::move(made).value()};

@@ -3,11 +3,12 @@
 // equipartition, mean free paths, the collision rate and the equation of state.
 //
 // Sources: Chernov, J. Stat. Phys. 88 (1997) 1 (mean free path pi A / P of the table that the
-// centre sees); Clisby, McCoy, J. Stat. Phys. 122 (2006) 15 (virial coefficients of hard disks);
-// the moments are those of a point drawn from a sphere of 2 N dimensions.
+// centre sees); virial.hpp (the equation of state); the moments are those of a point drawn from a
+// sphere of 2 N dimensions.
 
 #include "engine/invariants/gas.hpp"
 #include "engine/invariants/statistics.hpp"
+#include "engine/invariants/virial.hpp"
 #include "support/campaign.hpp"
 
 #include <gtest/gtest.h>
@@ -132,27 +133,6 @@ TEST(KineticTheory, TheMeanFreePathInAnEmptySquareIsThatOfItsDirection) {
 
 // -- The collision rate and the equation of state
 
-/// Compressibility factor p / (n k T) of hard disks by its virial series to the tenth coefficient;
-/// good to 1e-5 up to area fraction 0.2 and 3e-4 at 0.3.
-double virial_z(double area_fraction) {
-  constexpr std::array<double, 9> kReduced{1,
-                                           0.7820044379,
-                                           0.5322318071,
-                                           0.33355604,
-                                           0.1988425,
-                                           0.1148728,
-                                           0.0649930,
-                                           0.0362193,
-                                           0.0199537};
-  double z = 1;
-  double power = 1;
-  for (const double b : kReduced) {
-    power *= 2 * area_fraction;
-    z += b * power;
-  }
-  return z;
-}
-
 /// Counts what happens away from the walls, and pushes on the middles of the walls: both know
 /// nothing of walls and corners but the density that they leave inside.
 class Interior final : public CollisionSink {
@@ -225,7 +205,7 @@ void expect_theory(double area_fraction, int samples) {
   const test::GasSpec spec{.columns = 24, .area_fraction = area_fraction, .radius = 0.4375};
   const Bulk bulk = measure(spec, samples);
   const double inside = bulk.area_fraction.mean();
-  const double z = virial_z(inside);
+  const double z = 1 + test::virial_series(inside).excess;
   const double diameter = 2 * spec.radius;
   const double density = inside / (pi * spec.radius * spec.radius);
   std::printf("area fraction %.3g, inside %.5f +- %.2g, Z %.5f\n",

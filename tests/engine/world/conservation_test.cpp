@@ -33,7 +33,7 @@ class Conservation : public testing::Test {
     for (std::uint64_t i = 0; i < count; ++i) {
       StoryTeller teller(test::seed_of_run() + 1'000'000 + i);
       Story story;
-      for (std::uint64_t k = 0; k <= i % 6; ++k) story = teller.any();
+      for (std::uint64_t k = 0; k <= i % StoryTeller::kKinds; ++k) story = teller.any();
       SCOPED_TRACE("story " + std::to_string(i) + " (" + story.name + ")");
       const Result result = test::play(story);
       if (result.endless) continue;
@@ -44,7 +44,7 @@ class Conservation : public testing::Test {
 };
 
 World beginning_of(const Story& story) {
-  World world;
+  World world(WorldOptions{.start = {}, .period = story.period});
   test::must_spawn(world, story.disks, story.walls);
   return world;
 }

@@ -27,6 +27,7 @@ struct MotionPart {
   std::uint64_t tick = 0;
   engine::Instant at;
   engine::Arithmetic arithmetic = engine::Arithmetic::Double;
+  engine::Vector2 period = engine::Vector2::Zero();  ///< m; 0: open
   std::uint64_t state_hash = 0;  ///< of the world after the tick; in the last part, or 0
   std::vector<MotionChange> changes;
   std::vector<engine::BodyRecord> statics;  ///< of the bodies that this part brings in
@@ -34,7 +35,8 @@ struct MotionPart {
   [[nodiscard]] bool last_of_tick() const { return part + 1 >= parts; }
 };
 
-/// Nothing when the sample's arrays contradict each other, or its arithmetic is not known here.
+/// Nothing when the sample's arrays contradict each other, or its arithmetic or periods are none
+/// that are known here.
 [[nodiscard]] std::optional<MotionPart> motion_part_of(const idl::wire::MotionBatch& batch);
 
 }  // namespace stoss::client

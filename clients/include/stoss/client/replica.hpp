@@ -50,7 +50,8 @@ class Replica {
   struct Snapshot {
     ReplicaStamp stamp;
     engine::Arithmetic arithmetic = engine::Arithmetic::Double;
-    std::vector<ReplicaBody> bodies;  ///< in the order of ids
+    engine::Vector2 period = engine::Vector2::Zero();  ///< m; 0: open
+    std::vector<ReplicaBody> bodies;                   ///< in the order of ids
   };
   [[nodiscard]] Snapshot snapshot() const;
 

@@ -56,9 +56,10 @@ struct ReplicaCounters {
 
 class ReplicaModel {
  public:
-  /// `arithmetic` is the daemon's, as its status tells it.
-  explicit ReplicaModel(engine::Arithmetic arithmetic = engine::Arithmetic::Double)
-      : arithmetic_(arithmetic) {}
+  /// `arithmetic` and `period` are the daemon's, as its status tells them.
+  explicit ReplicaModel(engine::Arithmetic arithmetic = engine::Arithmetic::Double,
+                        const engine::Vector2& period = engine::Vector2::Zero())
+      : arithmetic_(arithmetic), period_(period) {}
 
   /// Takes in a part. Called once per received sample, in any order of epochs and numbers.
   void apply(MotionPart part);
@@ -72,6 +73,8 @@ class ReplicaModel {
   [[nodiscard]] const ReplicaStamp& stamp() const { return stamp_; }
   [[nodiscard]] const ReplicaCounters& counters() const { return counters_; }
   [[nodiscard]] engine::Arithmetic arithmetic() const { return arithmetic_; }
+  /// m; 0: open.
+  [[nodiscard]] const engine::Vector2& period() const { return period_; }
   [[nodiscard]] std::size_t size() const { return order_.size(); }
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
 
@@ -124,6 +127,7 @@ class ReplicaModel {
   ReplicaStamp stamp_;
   std::uint64_t next_ = 0;  ///< the number of the next part to stage
   engine::Arithmetic arithmetic_;
+  engine::Vector2 period_;
   bool complete_ = false;
   ReplicaCounters counters_;
 };

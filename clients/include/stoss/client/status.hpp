@@ -60,6 +60,7 @@ struct Status {
   double verify_energy_error = 0;
   double verify_momentum_error = 0;
   std::uint8_t arithmetic = 0;
+  engine::Vector2 period = engine::Vector2::Zero();  ///< m; 0: open
   std::string broad_phase;
   std::string version;
   std::string build;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What a world may have besides uniform motion and elastic contacts. An effect that is absent is
-// simulated nowhere: the world is then an instance of the engine that does not know it.
+// What a world may have besides uniform motion, elastic contacts and open space. An effect that is
+// absent is simulated nowhere: the world is then an instance of the engine that does not know it.
 
 #include <stoss/engine/outcome.hpp>
 #include <stoss/engine/types.hpp>
@@ -95,5 +95,10 @@ struct Effects {
 /// its range, with the field as in "restitution.coefficient"; Unimplemented for a combination that
 /// has no exact treatment.
 [[nodiscard]] std::optional<Reject> check_effects(const Effects& effects);
+
+/// Nothing if a world can have these periods (m; 0: open along that axis). Errors: InvalidArgument
+/// for a number that is none, negative, or beyond the range of lengths, with the field "period.x"
+/// or "period.y".
+[[nodiscard]] std::optional<Reject> check_period(const Vector2& period);
 
 }  // namespace stoss::engine

@@ -90,6 +90,19 @@ MotionRecord to_record(Id id, const Motion<S>& motion) {
 /// record, so for those the result is that of the nearest record.
 Vector2 evaluate(const MotionRecord& motion, Arithmetic arithmetic, const Instant& instant);
 
+/// The same in a world of these periods (0: open): the image in [0, period), as BodyState shows it.
+Vector2 evaluate(const MotionRecord& motion,
+                 Arithmetic arithmetic,
+                 const Instant& instant,
+                 const Vector2& period);
+
+/// A wall in such a world, in the same sense, as WallState shows it.
+WallState evaluate_wall(const MotionRecord& motion,
+                        const BodyRecord& body,
+                        Arithmetic arithmetic,
+                        const Instant& instant,
+                        const Vector2& period);
+
 /// The velocity of a recorded motion, m/s, in the same sense.
 Vector2 evaluate_velocity(const MotionRecord& motion,
                           Arithmetic arithmetic,

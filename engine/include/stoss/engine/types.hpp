@@ -67,7 +67,7 @@ struct Collision {
                                  ///< outcome depends on which is resolved first
   Id a = kNoId;                  ///< the lower id of two disks, or the disk of a disk and a wall
   Id b = kNoId;
-  Vector2 point = Vector2::Zero();       ///< m
+  Vector2 point = Vector2::Zero();       ///< m; in a periodic world in [0, period)
   Vector2 normal = Vector2::Zero();      ///< unit vector from a to b
   double impulse = 0;                    ///< kg m/s, >= 0
   double approach_speed = 0;             ///< m/s, >= 0
@@ -84,7 +84,7 @@ class CollisionSink {
   virtual void on_collision(const Collision& collision) = 0;
 };
 
-/// A disk evaluated at an instant.
+/// A disk evaluated at an instant; in a periodic world the image in [0, period).
 struct BodyState {
   Id id = kNoId;
   BodyKind kind = BodyKind::Dynamic;
@@ -96,7 +96,7 @@ struct BodyState {
   double radius = 0;
 };
 
-/// A wall evaluated at an instant.
+/// A wall evaluated at an instant; in a periodic world the image whose start is in [0, period).
 struct WallState {
   Id id = kNoId;
   Instant instant;
@@ -146,8 +146,8 @@ struct Change {
 
 /// Sums over the dynamic disks, rounded once each.
 struct Conserved {
-  double kinetic_energy = 0;           ///< J
-  double potential_energy = 0;         ///< J; 0 without gravity
+  double kinetic_energy = 0;    ///< J
+  double potential_energy = 0;  ///< J; 0 without gravity; by the way flown in a periodic world
   Vector2 momentum = Vector2::Zero();  ///< kg m/s
 };
 

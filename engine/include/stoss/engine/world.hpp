@@ -33,13 +33,16 @@ struct WorldOptions {
   Arithmetic arithmetic = Arithmetic::Double;
   BroadPhaseKind broad_phase = BroadPhaseKind::Neighbours;  ///< never changes a byte of output
   Effects effects{};                                        ///< that check_effects() accepts
+  /// m; above 0 the world repeats itself along that axis, 0 leaves it open. check_period().
+  Vector2 period = Vector2::Zero();
 };
 
 /// Why an advance stopped short of the instant asked for.
 enum class Stop : std::uint8_t {
   Reached,      ///< it did not: every event up to and at the instant is processed
   EventBudget,  ///< the limit of events was used up; call again to go on
-  Stalled,      ///< events crowd into one instant without end; `stalled` names a body
+  Stalled,      ///< events crowd into one instant without end, or a body of a periodic world has
+                ///< flown 2^32 periods (2^24 in float); `stalled` names it
 };
 
 struct AdvanceReport {
@@ -67,7 +70,7 @@ class World {
  public:
   /// A world without bodies. REQUIRES: options.arithmetic is Float, Double or LongDouble; wider
   /// ones come from stoss::wide. Throws std::invalid_argument for effects that check_effects()
-  /// refuses.
+  /// and for periods that check_period() refuses.
   explicit World(const WorldOptions& options = {});
   explicit World(std::unique_ptr<WorldCore> core);
   World(const World& other);
@@ -80,6 +83,7 @@ class World {
   Arithmetic arithmetic() const;
   BroadPhaseKind broad_phase() const;
   Effects effects() const;
+  Vector2 period() const;
   std::size_t disk_count() const;
   std::size_t wall_count() const;
   Counters counters() const;
@@ -121,6 +125,10 @@ class World {
   // Questions, at now().
 
   bool contains(Id id) const;
+  // In a periodic world a place is shown in [0, period) along each periodic axis: a disk's
+  // position, the start of a wall (its end follows from there), the point of a collision or of a
+  // ray's hit. Regions, nearest bodies and rays take every image into account.
+
   /// Errors: NotFound (also for a wall).
   Outcome<BodyState> state(Id id) const;
   Outcome<WallState> wall(Id id) const;
@@ -132,7 +140,8 @@ class World {
   /// The `count` disks and walls nearest to a point, nearest first, ties by id.
   std::vector<Near> nearest(const Vector2& point, std::size_t count) const;
   /// The first disk or wall that a ray meets within `length_max`, ties by id. `direction` need not
-  /// be a unit vector. Nothing when it meets none, or the direction is zero.
+  /// be a unit vector. Nothing when it meets none, or the direction is zero. In a periodic world it
+  /// goes as far as 1024 (smallest) periods.
   std::optional<RayHit> ray(const Vector2& origin,
                             const Vector2& direction,
                             double length_max) const;

@@ -27,6 +27,7 @@ struct SceneBodies {
   engine::Instant start;
   engine::Effects effects;
   std::uint64_t seed = 0;  ///< for effects that are switched on later
+  engine::Vector2 period = engine::Vector2::Zero();
   std::vector<engine::DiskSpec> disks;
   std::vector<std::string> disk_names;
   std::vector<engine::WallSpec> walls;
@@ -34,11 +35,12 @@ struct SceneBodies {
 };
 
 /// Whatever of the scene the engine has no exact treatment for: Unimplemented, with the field named
-/// as "effects.gravity", "zones" or "period.x".
+/// as "effects.gravity" or "zones".
 [[nodiscard]] std::optional<engine::Reject> unsupported(const Scene& scene);
 
 /// The bodies of a scene that has passed idl::check_scene. Errors: those of unsupported();
-/// InvalidArgument for a kind that is unknown, and those of engine::check_effects().
+/// InvalidArgument for a kind that is unknown, and those of engine::check_effects() and
+/// engine::check_period().
 [[nodiscard]] engine::Outcome<SceneBodies> bodies_of(const Scene& scene);
 
 /// How a scene's world computes; neither changes with the scene.
