@@ -319,6 +319,14 @@ bool BasicWorld<S, Laws>::is_in_bounds([[maybe_unused]] Slot slot) const {
     if (space_.is_beyond(detail::rounded(body.motion.position), kPeriodsMax<S>)) return false;
     if (space_.is_beyond(detail::rounded(position_of(slot, now_)), kPeriodsMax<S>)) return false;
     if (!detail::within(detail::rounded(body.motion.velocity), kFaster * speed_max())) return false;
+    const auto is_near = [](const Image& k) {
+      const auto farthest = static_cast<std::int64_t>(2 * kPeriodsMax<S>);
+      return k.x <= farthest && k.x >= -farthest && k.y <= farthest && k.y >= -farthest;
+    };
+    const RestImages images = rest_images(slot);
+    if (!is_near(images.support) || !is_near(images.second_support) || !is_near(images.slid_off)) {
+      return false;
+    }
     if (!body.is_wall()) return 2 * static_cast<double>(body.radius) < space_.smallest();
     return !space_.is_beyond(detail::rounded(shape(slot).edge), kWallPeriodsMax);
   } else {
