@@ -120,10 +120,9 @@ TEST(PeriodicTheory, CollisionRateAndEquationOfStateAreThoseOfTheBulk) {
 }
 
 TEST(PeriodicTheory, FewDisksDifferFromTheBulkAsTheyMust) {
-  for (const int columns : {4, 8}) {
-    for (const double area_fraction : {0.1, 0.2}) {
-      expect_theory(columns, area_fraction, test::campaign(8'000 / (columns * columns), 100'000));
-    }
+  for (const double area_fraction : {0.1, 0.2}) {
+    expect_theory(4, area_fraction, test::campaign(500, 100'000));
+    expect_theory(8, area_fraction, test::campaign(125, 50'000));
   }
 }
 
