@@ -155,8 +155,13 @@ inline ImageRange images_that_meet(
     double low_a, double high_a, double low_b, double high_b, double period) {
   if (!(period > 0)) return {0, low_a <= high_b && low_b <= high_a ? 0 : -1};
   constexpr double kRounding = 1e-9;  // of a period; chosen: one image too many does no harm
-  return {static_cast<std::int64_t>(std::ceil((low_a - high_b) / period - kRounding)),
-          static_cast<std::int64_t>(std::floor((high_a - low_b) / period + kRounding))};
+  // Mostly both lie together, and nothing has to be divided.
+  const double within = period * (1 - kRounding);
+  const double up = high_a - low_b;
+  const double down = high_b - low_a;
+  if (up >= 0 && down >= 0 && up < within && down < within) return {0, 0};
+  return {static_cast<std::int64_t>(std::ceil(-down / period - kRounding)),
+          static_cast<std::int64_t>(std::floor(up / period + kRounding))};
 }
 
 }  // namespace detail

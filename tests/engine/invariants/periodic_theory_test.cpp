@@ -115,7 +115,7 @@ void expect_theory(int columns, double area_fraction, std::uint64_t collisions_p
 
 TEST(PeriodicTheory, CollisionRateAndEquationOfStateAreThoseOfTheBulk) {
   for (const double area_fraction : {0.05, 0.1, 0.2, 0.3}) {
-    expect_theory(20, area_fraction, test::campaign(40, 4'000));
+    expect_theory(16, area_fraction, test::campaign(24, 4'000));
   }
 }
 
