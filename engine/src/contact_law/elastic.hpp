@@ -7,13 +7,16 @@
 //   (3) J = m_a |k_a| |p| = m_b |k_b| |p|  [N s]
 // Source: conservation of momentum and kinetic energy; Goldstein, Classical Mechanics, 3.11.
 // Deviation: p is the actual vector, never a rounded unit normal nor divided by the nominal
-//   distance: either would change the energy with a bias. k and the changes are double words, and
-//   each k is divided once, lest a rounded share of the masses err alike in all contacts of a pair.
-// Accuracy: energy and momentum of a contact to 32 u^2 (4e-31 in double), with a bias below
-//   0.4 u^2; heavy masses do not stagnate: tests/engine/contact_law/elastic_test.cpp.
+//   distance: either would change the energy with a bias. k and the changes are double words; p . p
+//   and the quotient are those of unbiased.hpp, and both bodies get theirs from one quotient.
+// Accuracy: energy of a contact to 20 u^2 (2.5e-31 in double), momentum to 4 u^2. The error of the
+//   energy has no sign: its mean over 10^6 contacts, known to 0.0012 u^2, is within four standard
+//   errors of zero, and no wall or pair of masses has one of its own; heavy masses do not stagnate:
+//   tests/engine/contact_law/elastic_test.cpp.
 // Preconditions: masses > 0 (that of a fixed body is not read), p != 0.
 #pragma once
 
+#include "contact_law/unbiased.hpp"
 #include "contact_time/contact_time.hpp"
 #include "stoss/engine/double_word.hpp"
 
@@ -34,15 +37,43 @@ struct PairImpulse {
 
 namespace detail {
 
-/// (1) for the body of mass `self`; `change` stands for 2 u . p, `length2` = p . p.
+/// k_a and k_b of (1).
 template <class S>
-[[nodiscard]] inline DoubleWord<S> share_of_impulse(const DoubleWord<S>& change,
-                                                    const DoubleWord<S>& length2,
-                                                    const S& self,
-                                                    const S& other) noexcept {
-  const int by_mass = steps_into_range(larger(self, other));
-  const S m = shifted(self, by_mass), n = shifted(other, by_mass);
-  return (change * n) / (length2 * two_sum(m, n));
+struct Shares {
+  DoubleWord<S> a, b;
+};
+
+/// (1); `change` stands for 2 u . p, `length2` = p . p; not both bodies are fixed. The masses' sum
+/// joins the denominator exactly: rounded apart, it would err alike in all contacts of a pair.
+template <class S>
+[[nodiscard]] inline Shares<S> shares_of_impulse(const DoubleWord<S>& change,
+                                                 const TripleWord<S>& length2,
+                                                 S mass_a,
+                                                 bool fixed_a,
+                                                 S mass_b,
+                                                 bool fixed_b) noexcept {
+  if (fixed_a || fixed_b) {
+    const DoubleWord<S> none{S(0), S(0)};
+    const DoubleWord<S> whole = unbiased_quotient(change, length2);
+    return {fixed_a ? none : whole, fixed_b ? none : whole};
+  }
+  const int by_mass = steps_into_range(larger(mass_a, mass_b));
+  const S a = shifted(mass_a, by_mass), b = shifted(mass_b, by_mass);
+  const DoubleWord<S> by_sum =
+      unbiased_quotient(change, product_in_three_words(length2, two_sum(a, b)));
+  return {by_sum * b, by_sum * a};
+}
+
+/// p, or a unit vector along p if that is exact. Only the direction counts, but the rounded square
+/// of a wall's length errs to the same side in all its contacts; where the normal is an axis, even
+/// arithmetics of one word then reflect exactly.
+template <class S>
+[[nodiscard]] inline DoubleWord2<S> unit_if_exact(const DoubleWord2<S>& p) noexcept {
+  const DoubleWord<S> none{S(0), S(0)};
+  const auto unit = [](const S& x) { return DoubleWord<S>{x < S(0) ? S(-1) : S(1), S(0)}; };
+  if (p.y.hi == S(0)) return {unit(p.x.hi), none};
+  if (p.x.hi == S(0)) return {none, unit(p.y.hi)};
+  return p;
 }
 
 /// The impulse along the normal that takes `gain(closing, p . p, by_speed)` from u . p, where
@@ -58,14 +89,15 @@ template <class S, bool Always = false, class Gain>
                                                    const Gain& gain) noexcept {
   using std::sqrt;
   // p cancels and u is linear in (1): both may be shifted into the range where squares are safe.
-  const int by_length = steps_into_range(size_of(contact_vector));
+  const DoubleWord2<S> direction = unit_if_exact(contact_vector);
+  const int by_length = steps_into_range(size_of(direction));
   const int by_speed = steps_into_range(size_of(relative_velocity));
-  const DoubleWord2<S> p = shifted(contact_vector, by_length);
+  const DoubleWord2<S> p = shifted(direction, by_length);
   const DoubleWord2<S> u = shifted(relative_velocity, by_speed);
 
   PairImpulse<S> result;
-  const DoubleWord<S> length2 = square_norm(p);
-  const S length = sqrt(to_scalar(length2));
+  const TripleWord<S> length2 = square_norm_in_three_words(p);
+  const S length = sqrt(length2.hi);
   result.normal_x = p.x.hi / length;
   result.normal_y = p.y.hi / length;
   const DoubleWord<S> closing = dot(u, p);
@@ -73,17 +105,11 @@ template <class S, bool Always = false, class Gain>
   result.approach_speed = shifted(S(-to_scalar(closing) / length), -by_speed);
   if (fixed_a && fixed_b) return result;
 
-  const DoubleWord<S> change = gain(closing, length2, by_speed);
-  const DoubleWord<S> none{S(0), S(0)};
-  const bool free = !fixed_a && !fixed_b;
-  const DoubleWord<S> whole = free ? none : change / length2;
-  const DoubleWord<S> k_a =
-      fixed_a ? none : (free ? share_of_impulse(change, length2, mass_a, mass_b) : whole);
-  const DoubleWord<S> k_b =
-      fixed_b ? none : (free ? share_of_impulse(change, length2, mass_b, mass_a) : whole);
-  result.delta_a = shifted(p * k_a, -by_speed);
-  result.delta_b = shifted(-(p * k_b), -by_speed);
-  const S momentum = fixed_a ? S(mass_b * k_b.hi) : S(mass_a * k_a.hi);
+  const DoubleWord<S> change = gain(closing, length2.two_words(), by_speed);
+  const Shares<S> k = shares_of_impulse(change, length2, mass_a, fixed_a, mass_b, fixed_b);
+  result.delta_a = shifted(p * k.a, -by_speed);
+  result.delta_b = shifted(-(p * k.b), -by_speed);
+  const S momentum = fixed_a ? S(mass_b * k.b.hi) : S(mass_a * k.a.hi);
   result.impulse = shifted(S(-momentum * length), -by_speed);
   return result;
 }

@@ -69,34 +69,30 @@ template <class S>
                                                      const RoughBody<S>& b,
                                                      const Roughness<S>& rough) noexcept {
   const DoubleWord<S> rim = a.spin * a.radius + b.spin * b.radius;
-  const int by_length = detail::steps_into_range(detail::size_of(contact_vector));
+  const DoubleWord2<S> direction = detail::unit_if_exact(contact_vector);
+  const int by_length = detail::steps_into_range(detail::size_of(direction));
   const int by_speed = detail::steps_into_range(
       detail::larger(detail::size_of(relative_velocity), detail::magnitude(rim.hi)));
-  const DoubleWord2<S> p = detail::shifted(contact_vector, by_length);
+  const DoubleWord2<S> p = detail::shifted(direction, by_length);
   const DoubleWord2<S> u = detail::shifted(relative_velocity, by_speed);
   const DoubleWord2<S> t{-p.y, p.x};
   const DoubleWord<S> closing = dot(u, p);
   if (sign(closing) >= 0 || (a.is_fixed && b.is_fixed)) return {};
 
-  const DoubleWord<S> length2 = square_norm(p);
-  const DoubleWord<S> length = sqrt(length2);
+  const detail::TripleWord<S> length2 = detail::square_norm_in_three_words(p);
+  const DoubleWord<S> length = sqrt(length2.two_words());
   const DoubleWord<S> surface = dot(u, t) - detail::shifted(rim, by_speed) * length;
   const DoubleWord<S> change = detail::tangential_change(surface, closing, rough);
-  const auto share = [&](const RoughBody<S>& self, const RoughBody<S>& other) -> DoubleWord<S> {
+  const detail::Shares<S> k =
+      detail::shares_of_impulse(change, length2, a.mass, a.is_fixed, b.mass, b.is_fixed);
+  impulse.delta_a = impulse.delta_a - detail::shifted(t * k.a, -by_speed);
+  impulse.delta_b = impulse.delta_b + detail::shifted(t * k.b, -by_speed);
+  const auto turn = [&](const RoughBody<S>& self, const DoubleWord<S>& share) -> DoubleWord<S> {
     if (self.is_fixed) return {};
-    if (other.is_fixed) return change / length2;
-    return detail::share_of_impulse(change, length2, self.mass, other.mass);
-  };
-  const DoubleWord<S> k_a = share(a, b);
-  const DoubleWord<S> k_b = share(b, a);
-  impulse.delta_a = impulse.delta_a - detail::shifted(t * k_a, -by_speed);
-  impulse.delta_b = impulse.delta_b + detail::shifted(t * k_b, -by_speed);
-  const auto turn = [&](const RoughBody<S>& self, const DoubleWord<S>& k) -> DoubleWord<S> {
-    if (self.is_fixed) return {};
-    const DoubleWord<S> twice = k + k;
+    const DoubleWord<S> twice = share + share;
     return detail::shifted(-(twice * length) / self.radius, -by_speed);
   };
-  return {turn(a, k_a), turn(b, k_b)};
+  return {turn(a, k.a), turn(b, k.b)};
 }
 
 }  // namespace stoss::engine
