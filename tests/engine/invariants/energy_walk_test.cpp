@@ -5,8 +5,8 @@
 //
 // Source: engine/NUMERICS.md, "Impulses". Radii other than 0.5 m are looked at, too: rounding of
 // p.p just above and below a power of two differs, and a bias may show there. Of a bias of 0.002
-// u^2 a collision, which is what dropped squares of low words leave (contact_law/unbiased.hpp), the
-// mean would be 20 standard errors off in a normal run, and 80 in a long one.
+// u^2 a collision, as dropped squares of low words leave it (contact_law/unbiased.hpp), the mean
+// would be 30 standard errors off in a normal run, and 100 in a long one.
 
 #include "engine/invariants/energy.hpp"
 #include "engine/invariants/gas.hpp"
@@ -49,9 +49,9 @@ void expect_walk(Arithmetic arithmetic, double unit) {
     const double growth = drift.late.deviation() / drift.early.deviation();
     const double off = drift.late.mean() / drift.late.error();
     std::printf(
-        "radius %.5f: drift after %.0f collisions %.2g +- %.2g (a run), mean %+.2f standard "
-        "errors, "
-        "growth for 10 times the collisions %.2f; a collision: step %.4f u^2, mean %+.1e +- %.1e\n",
+        "radius %.5f: drift after %.0f collisions %.2g +- %.2g (a run), mean %+.2f "
+        "standard errors, growth for 10 times the collisions %.2f; a collision: step %.4f "
+        "u^2, mean %+.1e +- %.1e\n",
         radius,
         collisions,
         drift.late.mean(),
