@@ -32,6 +32,7 @@ class Scene:
         self.period = period  # m; 0: open
         self.disks = []
         self.walls = []
+        self.effects = []  # a line of JSON each
 
     def disk(self, x, y, radius, vx=0.0, vy=0.0, mass=1.0, name="", kind="DYNAMIC"):
         self.disks.append(dict(x=float(x), y=float(y), radius=float(radius), vx=float(vx),
@@ -314,6 +315,43 @@ def polydisperse():
     return scene
 
 
+def packing():
+    # A hundred disks of two sizes grow until they jam (Lubachevsky and Stillinger, J. Stat. Phys. 60
+    # (1990) 561). Restitution takes out what the growth puts in.
+    scene = Scene("packing")
+    rng = random.Random(101)
+    scene.box(0, 0, 10, 10)
+    for i in range(100):
+        scene.disk(i % 10 + 0.5, i // 10 + 0.5, 0.15 if i % 2 else 0.05,
+                   vx=round(0.4 * rng.random() - 0.2, 6), vy=round(0.4 * rng.random() - 0.2, 6))
+    scene.effects = ['"restitution": {"coefficient": 0.9}', '"growth": {"rate": 0.3}']
+    return scene
+
+
+def sinking():
+    # Disks sink through a medium past pegs and shelves, at 2 m/s where nothing is in their way, and
+    # slide off the shelves.
+    scene = Scene("sinking")
+    rng = random.Random(7)
+    scene.wall(0, 0, 0, 40, name="left")
+    scene.wall(20, 0, 20, 40, name="right")
+    scene.wall(0, 12, 8, 8, name="left shelf")
+    scene.wall(20, 12, 12, 8, name="right shelf")
+    grid = Grid()
+    for row in range(4):
+        for column in range(5 - row % 2):
+            scene.disk(2 + 4 * column + 2 * (row % 2), 24 - 3 * row, 0.4, kind="STATIC",
+                       name=f"peg {row + 1}.{column + 1}")
+            grid.add(scene.disks[-1])
+    for _ in range(60):
+        place(scene, grid, rng, 0.3, (0, 26, 20, 40), 1e-3, vx=round(normal(rng), 6),
+              vy=round(normal(rng), 6))
+    scene.effects = ['"gravity": {"acceleration": {"y": -10}}', '"drag": {"rate": 5}',
+                     '"restitution": {"coefficient": 0.5, "contact_duration": 0.001, '
+                     '"rest_speed": 0.01}']
+    return scene
+
+
 # Writing: the canonical Protobuf JSON mapping, a body a line --------------------------------------
 
 
@@ -354,8 +392,10 @@ def to_json(scene):
     first = len(scene.disks) + 1
     walls = ",\n".join(wall_line(i, w) for i, w in enumerate(scene.walls, first))
     period = f'  "period": {vector(*scene.period)},\n' if any(scene.period) else ""
+    effects = ",\n".join(f"    {line}" for line in scene.effects)
+    end = f',\n  "effects": {{\n{effects}\n  }}' if effects else ""
     return (f'{{\n  "name": "{scene.name}",\n{period}  "disks": [\n{disks}\n  ],\n'
-            f'  "walls": [\n{walls}\n  ]\n}}\n')
+            f'  "walls": [\n{walls}\n  ]{end}\n}}\n')
 
 
 def main():
@@ -363,7 +403,7 @@ def main():
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     arguments = parser.parse_args()
     scenes = [tutorial(), newtons_cradle(), pool_break(), bullets(), gas(), polydisperse(),
-              periodic_gas(), channel()]
+              periodic_gas(), channel(), packing(), sinking()]
     scenes += [pi_digits(k) for k in range(5)]
     stale = []
     for scene in scenes:

@@ -237,7 +237,7 @@ TEST(Simulate, AScenesFaultIsNamed) {
   const Finished overlap = stoss({"simulate", path, "--until", "1"});
   EXPECT_EQ(overlap.status, 1);
   EXPECT_EQ(overlap.error.rfind("OVERLAP: ", 0), 0U) << overlap.error;
-  std::ofstream(path) << R"({"effects":{"drag":{"rate":1}}})";
+  std::ofstream(path) << R"({"effects":{"drag":{"rate":1},"growth":{"rate":1}}})";
   const Finished drag = stoss({"simulate", path, "--until", "1"});
   EXPECT_EQ(drag.status, 1);
   EXPECT_EQ(drag.error.rfind("UNIMPLEMENTED: ", 0), 0U) << drag.error;

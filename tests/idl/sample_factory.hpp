@@ -79,7 +79,8 @@ class SampleFactory {
              b.ax,
              b.ay,
              b.ax_low,
-             b.ay_low);
+             b.ay_low,
+             b.rate);
   }
   void statics(idl::wire::StaticBlock& b, std::size_t n = stoss_v1_MAX_STATICS) {
     fill_all(n, b.id, b.kind, b.radius, b.mass, b.edge_x, b.edge_y, b.edge_x_low, b.edge_y_low);

@@ -45,6 +45,9 @@ class BitDigest {
     add(m.vy);
     add(m.ax);
     add(m.ay);
+    add(m.drag);
+    add(m.radius);
+    add(m.growth);
     add(m.since);
   }
   void add(const engine::BodyRecord& b) {

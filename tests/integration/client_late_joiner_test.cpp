@@ -28,17 +28,33 @@ using client::Session;
 constexpr unsigned kDomain = 83;
 constexpr Milliseconds kPatience{30'000};
 
+Effects falling() {
+  Effects effects;
+  effects.mutable_gravity()->mutable_acceleration()->set_y(-2);
+  auto& restitution = *effects.mutable_restitution();
+  restitution.set_coefficient(0.9);
+  restitution.set_contact_duration(1e-3);
+  restitution.set_rest_speed(0.01);
+  return effects;
+}
+
+Effects falling_through_a_medium() {
+  Effects effects = falling();
+  effects.mutable_drag()->set_rate(0.3);
+  return effects;
+}
+
+Effects growing() {
+  Effects effects;
+  effects.mutable_growth()->set_rate(0.003);
+  return effects;
+}
+
 /// Disks on a lattice with random velocities, slow enough for a machine that has other things to
 /// do.
-std::string write_gas(int side, bool falls = false) {
+std::string write_gas(int side, const Effects& effects = {}) {
   Scene gas;
-  if (falls) {
-    gas.mutable_effects()->mutable_gravity()->mutable_acceleration()->set_y(-2);
-    auto& restitution = *gas.mutable_effects()->mutable_restitution();
-    restitution.set_coefficient(0.9);
-    restitution.set_contact_duration(1e-3);
-    restitution.set_rest_speed(0.01);
-  }
+  *gas.mutable_effects() = effects;
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> speed(-0.2, 0.2);
   for (int i = 0; i < side * side; ++i) {
@@ -66,6 +82,7 @@ std::string write_gas(int side, bool falls = false) {
 std::uint64_t digest(const engine::BodyState& state) {
   BitDigest bits;
   bits.add(state.id, state.position, state.velocity);
+  bits.add(state.radius);
   return bits.value();
 }
 
@@ -128,7 +145,13 @@ TEST(LateJoiner, HoldsAHundredThousandBodiesExactly) {
   join_late(write_gas(kSide), kSide * kSide);
 }
 
-TEST(LateJoiner, HoldsAWorldWithGravityExactly) { join_late(write_gas(20, true), 400); }
+TEST(LateJoiner, HoldsAWorldWithGravityExactly) { join_late(write_gas(20, falling()), 400); }
+
+TEST(LateJoiner, HoldsAWorldWithDragExactly) {
+  join_late(write_gas(20, falling_through_a_medium()), 400);
+}
+
+TEST(LateJoiner, HoldsAGrowingWorldExactly) { join_late(write_gas(20, growing()), 400); }
 
 TEST(LateJoiner, AReplicaFindsItsWayThroughAReset) {
   Process daemon(stossd(kDomain, {"--scene", scene("pool-break"), "--world", "late"}));

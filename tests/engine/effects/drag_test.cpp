@@ -236,6 +236,22 @@ TEST(DragWorld, CommandsFindTheVelocityOfTheInstant) {
   EXPECT_EQ(test::state(world, 1).velocity.y(), 1);
 }
 
+TEST(DragWorld, IsSwitchedOnAndOffWhileTheWorldLives) {
+  World world;
+  test::must_spawn(world,
+                   {test::disk(1, {0, 0}, {1, 0}, 0.5)},
+                   std::vector<WallSpec>{test::wall(2, {0, 9}, {1, 9}, {0, 1})});
+  run_for(world, 1);
+  ASSERT_TRUE(world.set_effects(with_drag(1).effects).ok());
+  run_for(world, 1);
+  EXPECT_NEAR(test::state(world, 1).velocity.x(), std::exp(-1.0), 1e-15);
+  ASSERT_TRUE(world.set_effects({}).ok());
+  run_for(world, 1);
+  EXPECT_NEAR(test::state(world, 1).velocity.x(), std::exp(-1.0), 1e-15);
+  EXPECT_NEAR(test::state(world, 1).position.x(), 2, 1e-15);
+  EXPECT_EQ(world.wall(2).value().start, Vector2(0, 12));
+}
+
 TEST(DragWorld, RefusesWhatHasNoExactTreatment) {
   Effects effects;
   effects.drag = Drag{-1};

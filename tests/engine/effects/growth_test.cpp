@@ -241,6 +241,27 @@ TEST(GrowthWorld, StopsWhereThereIsNoRoomLeft) {
   EXPECT_LT(world.census().deepest, 1e-15);
 }
 
+TEST(GrowthWorld, IsSwitchedOnAndOffWhileTheWorldLives) {
+  World world;
+  test::must_spawn(world,
+                   {test::disk(1, {0, 0}, {1, 0}, 0.5), test::static_disk(2, {9, 9}, 0.5)});
+  run_for(world, 1);
+  Effects growing;
+  growing.growth = Growth{0.25};
+  ASSERT_TRUE(world.set_effects(growing).ok());
+  run_for(world, 2);
+  EXPECT_EQ(test::state(world, 1).radius, 1);
+  growing.growth = Growth{0.5};
+  ASSERT_TRUE(world.set_effects(growing).ok());
+  run_for(world, 1);
+  EXPECT_EQ(test::state(world, 2).radius, 1.5);
+  ASSERT_TRUE(world.set_effects({}).ok());
+  run_for(world, 5);
+  EXPECT_EQ(test::state(world, 1).radius, 1.5);
+  EXPECT_EQ(test::state(world, 2).radius, 1.5);
+  EXPECT_EQ(test::state(world, 1).position, Vector2(9, 0));
+}
+
 TEST(GrowthWorld, RefusesWhatHasNoExactTreatment) {
   Effects effects;
   effects.growth = Growth{-1};
