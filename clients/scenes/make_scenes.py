@@ -12,6 +12,7 @@ scene starts with an overlap.
 
 import argparse
 import itertools
+import json
 import math
 import pathlib
 import random
@@ -30,16 +31,18 @@ class Scene:
     def __init__(self, name, period=(0, 0)):
         self.name = name
         self.period = period  # m; 0: open
+        self.effects = {}  # as in scene.proto
+        self.seed = 0
         self.disks = []
         self.walls = []
-        self.effects = []  # a line of JSON each
 
     def disk(self, x, y, radius, vx=0.0, vy=0.0, mass=1.0, name="", kind="DYNAMIC"):
         self.disks.append(dict(x=float(x), y=float(y), radius=float(radius), vx=float(vx),
                                vy=float(vy), mass=float(mass), name=name, kind=kind))
 
-    def wall(self, x1, y1, x2, y2, name=""):
-        self.walls.append(dict(start=(float(x1), float(y1)), end=(float(x2), float(y2)), name=name))
+    def wall(self, x1, y1, x2, y2, name="", velocity=(0, 0)):
+        self.walls.append(dict(start=(float(x1), float(y1)), end=(float(x2), float(y2)), name=name,
+                               velocity=velocity))
 
     def box(self, left, bottom, right, top):
         """Four walls around a room."""
@@ -324,7 +327,7 @@ def packing():
     for i in range(100):
         scene.disk(i % 10 + 0.5, i // 10 + 0.5, 0.15 if i % 2 else 0.05,
                    vx=round(0.4 * rng.random() - 0.2, 6), vy=round(0.4 * rng.random() - 0.2, 6))
-    scene.effects = ['"restitution": {"coefficient": 0.9}', '"growth": {"rate": 0.3}']
+    scene.effects = {"restitution": {"coefficient": 0.9}, "growth": {"rate": 0.3}}
     return scene
 
 
@@ -346,9 +349,9 @@ def sinking():
     for _ in range(60):
         place(scene, grid, rng, 0.3, (0, 26, 20, 40), 1e-3, vx=round(normal(rng), 6),
               vy=round(normal(rng), 6))
-    scene.effects = ['"gravity": {"acceleration": {"y": -10}}', '"drag": {"rate": 5}',
-                     '"restitution": {"coefficient": 0.5, "contact_duration": 0.001, '
-                     '"rest_speed": 0.01}']
+    scene.effects = {"gravity": {"acceleration": {"y": -10}}, "drag": {"rate": 5},
+                     "restitution": {"coefficient": 0.5, "contact_duration": 0.001,
+                                     "rest_speed": 0.01}}
     return scene
 
 
@@ -384,6 +387,8 @@ def wall_line(index, wall):
     if wall["name"]:
         parts.append(f'"name": "{wall["name"]}"')
     parts.append(f'"start": {vector(*wall["start"])}, "end": {vector(*wall["end"])}')
+    if any(wall["velocity"]):
+        parts.append(f'"velocity": {vector(*wall["velocity"])}')
     return "    {" + ", ".join(parts) + "}"
 
 
@@ -392,19 +397,22 @@ def to_json(scene):
     first = len(scene.disks) + 1
     walls = ",\n".join(wall_line(i, w) for i, w in enumerate(scene.walls, first))
     period = f'  "period": {vector(*scene.period)},\n' if any(scene.period) else ""
-    effects = ",\n".join(f"    {line}" for line in scene.effects)
-    end = f',\n  "effects": {{\n{effects}\n  }}' if effects else ""
-    return (f'{{\n  "name": "{scene.name}",\n{period}  "disks": [\n{disks}\n  ],\n'
-            f'  "walls": [\n{walls}\n  ]{end}\n}}\n')
+    effects = f'  "effects": {json.dumps(scene.effects)},\n' if scene.effects else ""
+    seed = f'  "seed": "{scene.seed}",\n' if scene.seed else ""
+    return (f'{{\n  "name": "{scene.name}",\n{period}{effects}{seed}  "disks": [\n{disks}\n  ],\n'
+            f'  "walls": [\n{walls}\n  ]\n}}\n')
 
 
 def main():
+    from effect_scenes import effect_scenes  # which takes what is above from this file
+
     parser = argparse.ArgumentParser(description="Makes the example scenes.")
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     arguments = parser.parse_args()
     scenes = [tutorial(), newtons_cradle(), pool_break(), bullets(), gas(), polydisperse(),
               periodic_gas(), channel(), packing(), sinking()]
     scenes += [pi_digits(k) for k in range(5)]
+    scenes += effect_scenes()
     stale = []
     for scene in scenes:
         verify(scene)

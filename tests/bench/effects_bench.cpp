@@ -39,6 +39,8 @@ using stoss::bench::Advance;
 
 constexpr double kPull = 0.05;          // m/s^2: a quarter of the gas's energy over its box
 constexpr double kDeceleration = 1e-3;  // m/s^2: the gas moves on through all rounds
+constexpr double kDragRate = 1e-3;      // 1/s
+constexpr double kGrowthRate = 1e-7;    // m/s: the area fraction stays what it is
 constexpr double kAreaFraction = 0.3;
 
 double processor_seconds() {
@@ -63,6 +65,8 @@ std::vector<Row> make_rows() {
   const auto rough = [](Effects& e) { e.rough = Rough{0.9, 0.3}; };
   const auto pull = [](Effects& e) { e.gravity = Gravity{{0, -kPull}}; };
   const auto slowed = [](Effects& e) { e.floor_friction = FloorFriction{kDeceleration}; };
+  const auto dragged = [](Effects& e) { e.drag = Drag{kDragRate}; };
+  const auto growing = [](Effects& e) { e.growth = Growth{kGrowthRate}; };
   const auto bath = [](Effects& e) { e.thermostat = Thermostat{1, 0.1, 1}; };
   return {
       {"none (the plain world)", {}},
@@ -76,6 +80,11 @@ std::vector<Row> make_rows() {
       {"gravity", with(pull)},
       {"gravity, restitution", with([&](Effects& e) { pull(e), lossy(e); })},
       {"gravity, restitution, thermostat", with([&](Effects& e) { pull(e), lossy(e), bath(e); })},
+      {"drag", with(dragged)},
+      {"drag, thermostat", with([&](Effects& e) { dragged(e), bath(e); })},
+      {"drag, gravity", with([&](Effects& e) { dragged(e), pull(e); })},
+      {"growth", with(growing)},
+      {"growth, restitution", with([&](Effects& e) { growing(e), lossy(e); })},
       {"floor friction", with(slowed)},
       {"floor friction, restitution, rough",
        with([&](Effects& e) { slowed(e), lossy(e), rough(e); })},
@@ -115,13 +124,26 @@ std::vector<Case> make_cases(const Effects& effects) {
 }
 
 template <class Laws>
-typename Laws::template Relative<double> motion_of(const Case& c,
-                                                   const DoubleWord2<double>& acceleration) {
-  if constexpr (Laws::kCurved) {
+typename Laws::template Relative<double> motion_of(
+    const Case& c, [[maybe_unused]] const DoubleWord2<double>& acceleration) {
+  if constexpr (Laws::kDragged) {
+    return {{c.position, c.velocity, acceleration, 0}, kDragRate};
+  } else if constexpr (Laws::kCurved) {
     return {c.position, c.velocity, acceleration, 0};
   } else {
-    static_cast<void>(acceleration);
     return {c.position, c.velocity, 0};
+  }
+}
+
+/// A radius of the world's kind.
+template <class Laws, class Radius>
+Radius radius_of(double radius, double growing) {
+  if constexpr (Laws::kGrows) {
+    return {{radius, 0}, {growing * kGrowthRate, 0}};
+  } else if constexpr (std::is_same_v<Radius, double>) {
+    return radius;
+  } else {
+    return {radius, 0};
   }
 }
 
@@ -130,7 +152,10 @@ volatile double sink;  // keeps the results alive
 /// ns per call of each kernel.
 template <class Laws>
 std::array<double, kKernels> time_kernels(const std::vector<Case>& cases) {
-  const DoubleWord<double> reach{0.875, 0};
+  using Reach = typename Laws::template Reach<double>;
+  using Radius = std::conditional_t<Laws::kGrows, Reach, double>;
+  const auto reach = radius_of<Laws, Reach>(0.875, 2);
+  const auto radius = radius_of<Laws, Radius>(0.4375, 1);
   const DoubleWord2<double> edge = words(20, 3);
   const double for_ever = std::numeric_limits<double>::infinity();
   std::array<double, kKernels> result{};
@@ -141,8 +166,8 @@ std::array<double, kKernels> time_kernels(const std::vector<Case>& cases) {
       const auto pair = motion_of<Laws>(c, c.pair_acceleration);
       const auto wall = motion_of<Laws>(c, c.wall_acceleration);
       const auto t = kernel == 0   ? Laws::pair_contact(pair, reach, for_ever)
-                     : kernel == 1 ? Laws::face_contact(wall, edge, 0.4375, for_ever)
-                                   : Laws::point_contact(wall, 0.4375, for_ever);
+                     : kernel == 1 ? Laws::face_contact(wall, edge, radius, for_ever)
+                                   : Laws::point_contact(wall, radius, for_ever);
       if (t) sum += t->hi;
     }
     sink = sum;
@@ -157,6 +182,10 @@ std::array<double, kKernels> time_kernels(const Row& row, const std::vector<Case
       return time_kernels<PlainLaws>(cases);
     case LawsKind::Contact:
       return time_kernels<ContactLaws>(cases);
+    case LawsKind::Growing:
+      return time_kernels<GrowingLaws>(cases);
+    case LawsKind::Dragged:
+      return time_kernels<DragLaws>(cases);
     case LawsKind::Accelerated:
       return time_kernels<AcceleratedLaws>(cases);
   }
