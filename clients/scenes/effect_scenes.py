@@ -72,7 +72,7 @@ def galton_board():
 
 def hourglass():
     # Two chambers and a neck. Sand that piles up would rest on sand, which has no exact treatment;
-    # a warm bath keeps the grains hopping, so they flow, and the lower chamber fills as a dense gas.
+    # a warm bath keeps the grains hopping, so they flow, and fill the lower chamber as a dense gas.
     scene = Scene("hourglass")
     scene.effects = {"gravity": gravity(-9.81),
                      "restitution": {"coefficient": 0.8, "contact_duration": 1e-4,
@@ -115,8 +115,8 @@ def pistons():
 
 
 def swarm():
-    # A building of 25 by 20 rooms with a door in every partition: a thousand walls and more. A robot
-    # stands in every fourth room and takes velocity commands; light crates lie and drift about.
+    # A building of 25 by 20 rooms with a door in every partition: a thousand walls and more. A
+    # robot stands in every fourth room and takes velocity commands; light crates drift about.
     scene = Scene("swarm")
     scene.effects = {"restitution": {"coefficient": 0.6, "wall_coefficient": 0.5,
                                      "contact_duration": 1e-4}}
