@@ -319,7 +319,7 @@ def polydisperse():
 
 
 def packing():
-    # A hundred disks of two sizes grow until they jam (Lubachevsky and Stillinger, J. Stat. Phys. 60
+    # A hundred disks of two sizes grow until they jam (Lubachevsky, Stillinger, J. Stat. Phys. 60
     # (1990) 561). Restitution takes out what the growth puts in.
     scene = Scene("packing")
     rng = random.Random(101)

@@ -194,9 +194,7 @@ class BasicWorld final : public WorldCore {
   bool has_no_place(Slot slot) const;
   Vector2 shown(const DoubleWord2<S>& position) const;
   DoubleWord2<S> period_words() const;
-  DoubleWord2<S> apart(const DoubleWord2<S>& p,
-                       const DoubleWord2<S>& q,
-                       const Which& image) const;
+  DoubleWord2<S> apart(const DoubleWord2<S>& p, const DoubleWord2<S>& q, const Which& image) const;
   DoubleWord2<S> nearest_apart(const DoubleWord2<S>& a, const DoubleWord2<S>& b) const;
   template <class Visit>
   void for_each_stored_copy(const Aabb& box, Visit&& visit) const;

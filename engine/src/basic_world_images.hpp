@@ -96,9 +96,8 @@ void BasicWorld<S, Laws>::leave_lists(Slot slot) {
   if (all_pairs()) return;
   if constexpr (!Laws::kPlain) {
     if (is_periodic()) {
-      neighbours_.remove(slot, [this](const Aabb& box, const auto& visit) {
-        space_.for_each_copy(box, visit);
-      });
+      neighbours_.remove(
+          slot, [this](const Aabb& box, const auto& visit) { space_.for_each_copy(box, visit); });
       return;
     }
   }
@@ -246,8 +245,8 @@ DoubleWord2<S> BasicWorld<S, Laws>::nearest_apart(const DoubleWord2<S>& a,
   return {a.x - b.x, a.y - b.y};
 }
 
-/// Beyond this a body's place is no longer resolved well enough, or it has grown until it is about to
-/// touch its own image; the world stops and names it.
+/// Beyond this a body's place is no longer resolved well enough, or it has grown until it is about
+/// to touch its own image; the world stops and names it.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::has_no_place([[maybe_unused]] Slot slot) const {
   if constexpr (!Laws::kPlain) {

@@ -153,9 +153,8 @@ void BasicWorld<S, Laws>::renew_rest(Slot slot) {
   if (body.second_support != kNoId) return;
   const DoubleWord2<S>& edge = shape(support).edge;
   const DoubleWord2<S> pull = pull_along(pull_towards(support), edge);
-  const DoubleWord2<S> from_start = apart(body.motion.position,
-                                          position_of(support, body.motion.since),
-                                          -rest_images(slot).support);
+  const DoubleWord2<S> from_start = apart(
+      body.motion.position, position_of(support, body.motion.since), -rest_images(slot).support);
   const DoubleWord2<S> slip = body.motion.velocity - velocity_of(support, body.motion.since);
   if constexpr (Laws::kDragged) {
     body.acceleration = body.acceleration + pull;

@@ -168,10 +168,10 @@ inline ImageRange images_that_meet(
 
 /// Where a body may go before it renews its box, and which of its images that box holds.
 struct Cage {
-  Aabb box;           ///< around the image `home`
-  Image home;         ///< the image that was in [0, L) when the box was made
+  Aabb box;                   ///< around the image `home`
+  Image home;                 ///< the image that was in [0, L) when the box was made
   Neighbours::Anchor anchor;  ///< of the body itself, when the box was made
-  double margin = 0;  ///< m
+  double margin = 0;          ///< m
 };
 
 /// The images that a resting disk's ids name, as seen from the disk.

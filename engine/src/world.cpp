@@ -183,9 +183,8 @@ Vector2 shown_position_in(const MotionRecord& record,
                           const Instant& instant,
                           const Vector2& period) {
   const DoubleWord2<S> position =
-      record.drag > 0
-          ? flight_in<S>(record, instant).position
-          : position_at(from_record<S>(record), acceleration_of<S>(record), instant);
+      record.drag > 0 ? flight_in<S>(record, instant).position
+                      : position_at(from_record<S>(record), acceleration_of<S>(record), instant);
   return detail::shown(position, detail::stored<S>(period));
 }
 

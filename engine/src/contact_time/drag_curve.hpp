@@ -15,7 +15,8 @@
 //   Comput. Part. Mech. 1 (2014) 191.
 // Deviation: everything in double words; near the start F = c + w . (p + x) with w = x - p and c in
 //   three words. Float runs in double.
-// Accuracy: t to 0.51 ulp (measured 0.500), no missed and no false contact, for gaps and overlaps to
+// Accuracy: t to 0.51 ulp (measured 0.500), no missed and no false contact, for gaps and overlaps
+// to
 //   1e-17 d: contact_time/drag_curve_test.cpp. Wide scalars: as far as their one word tells.
 // Preconditions: m > 0, d >= 0, t_max >= 0; sizes within kSizeMin and kSizeMax, or never. A pull
 // below

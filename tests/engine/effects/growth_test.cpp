@@ -243,8 +243,7 @@ TEST(GrowthWorld, StopsWhereThereIsNoRoomLeft) {
 
 TEST(GrowthWorld, IsSwitchedOnAndOffWhileTheWorldLives) {
   World world;
-  test::must_spawn(world,
-                   {test::disk(1, {0, 0}, {1, 0}, 0.5), test::static_disk(2, {9, 9}, 0.5)});
+  test::must_spawn(world, {test::disk(1, {0, 0}, {1, 0}, 0.5), test::static_disk(2, {9, 9}, 0.5)});
   run_for(world, 1);
   Effects growing;
   growing.growth = Growth{0.25};
