@@ -146,7 +146,10 @@ Vector2 BasicWorld<S, Laws>::normal_to_image(Slot disk, Slot wall, const Image& 
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_cage(Slot slot, Role role, double margin) {
   constexpr double kOfAllPairs = 0.25;
-  const double largest = (all_pairs() ? kOfAllPairs : 0.5) * space_.smallest();
+  double largest = (all_pairs() ? kOfAllPairs : 0.5) * space_.smallest();
+  if (growth_of(slot) > 0) {  // it is looked at before it can touch itself
+    largest = std::min(largest, 0.5 * (0.5 * space_.smallest() - radius_now(slot)));
+  }
   if (all_pairs()) margin = largest;
   margin = std::max(std::min(margin, largest), smallest_margin(slot));
   const Glance here = glance_of(slot);

@@ -268,6 +268,47 @@ TEST(PeriodicWorld, WithOtherEffectsTellsOneStory) {
   Effects falling;
   falling.gravity = Gravity{{0.3, -2}};
   expect_sound(test::expect_one_story(with(falling), 4, 150, 3));
+  Effects kicked;
+  kicked.thermostat = Thermostat{0.3, 0.5, 7};
+  expect_sound(test::expect_one_story(with(kicked), 4, 150, 3));
+  Effects dragged;
+  dragged.drag = Drag{0.2};
+  dragged.gravity = Gravity{{0.1, 0}};
+  expect_sound(test::expect_one_story(with(dragged), 4, 150, 3));
+  Effects growing;
+  growing.growth = Growth{0.01};
+  expect_sound(test::expect_one_story(with(growing), 4, 150, 3));
+}
+
+TEST(PeriodicWorld, ADiskGrowsUntilItIsAboutToTouchItself) {
+  WorldOptions options = with_period({2, 0});
+  options.effects.growth = Growth{0.125};
+  World world(options);
+  test::must_spawn(world, {test::disk(1, {0, 0}, {0.5, 0}, 0.5)});
+  const auto report = world.advance_to(test::seconds(10));
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report.value().stop, Stop::Stalled);
+  EXPECT_EQ(report.value().stalled, 1U);
+  EXPECT_LT(test::state(world, 1).radius, 1);
+  EXPECT_GT(test::state(world, 1).radius, 0.99);
+}
+
+TEST(PeriodicWorld, SwitchesItsEffectsAndKeepsItsPeriods) {
+  const auto play = [](BroadPhaseKind kind) {
+    World world = gas(with_period({10, 10}, kind));
+    run_for(world, 3);
+    Effects effects;
+    effects.gravity = Gravity{{0, -1}};
+    effects.restitution = Restitution{0.9, 0.9, 1e-3, 0};
+    EXPECT_TRUE(world.set_effects(effects).ok());
+    run_for(world, 1);
+    EXPECT_TRUE(world.set_effects({}).ok());
+    EXPECT_EQ(world.period(), Vector2(10, 10));
+    EXPECT_GT(run_for(world, 2).size(), 50U);
+    expect_sound(world);
+    return world.serialise();
+  };
+  EXPECT_EQ(play(BroadPhaseKind::Neighbours), play(BroadPhaseKind::AllPairs));
 }
 
 TEST(PeriodicWorld, IsAsOldAsItLikes) {

@@ -42,7 +42,7 @@ enum class Stop : std::uint8_t {
   Reached,      ///< it did not: every event up to and at the instant is processed
   EventBudget,  ///< the limit of events was used up; call again to go on
   Stalled,      ///< events crowd into one instant without end, or a body of a periodic world has
-                ///< flown 2^32 periods (2^24 in float); `stalled` names it
+                ///< flown 2^32 periods (2^24 in float) or grown to a period; `stalled` names it
 };
 
 struct AdvanceReport {
