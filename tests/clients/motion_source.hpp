@@ -18,8 +18,9 @@ namespace stoss::client {
 class MotionSource {
  public:
   explicit MotionSource(std::uint64_t seed,
-                        engine::Arithmetic arithmetic = engine::Arithmetic::Double)
-      : random_(seed), world_({.start = {}, .arithmetic = arithmetic}) {
+                        engine::Arithmetic arithmetic = engine::Arithmetic::Double,
+                        const engine::Vector2& period = engine::Vector2::Zero())
+      : random_(seed), world_({.start = {}, .arithmetic = arithmetic, .period = period}) {
     fill();
     static_cast<void>(world_.drain_changes());
   }
@@ -114,6 +115,7 @@ class MotionSource {
     part.tick = tick_;
     part.at = world_.now();
     part.arithmetic = world_.arithmetic();
+    part.period = world_.period();
     part.state_hash = world_.state_hash();
   }
 

@@ -71,6 +71,26 @@ TEST(ReplicaModel, EqualsTheWorldToTheBitAfterEveryTick) {
   }
 }
 
+TEST(ReplicaModel, EqualsAPeriodicWorldToTheBit) {
+  for (const Arithmetic arithmetic : {Arithmetic::Double, Arithmetic::Float}) {
+    MotionSource source(7, arithmetic, {22.5, 0});
+    ReplicaModel model(arithmetic, {22.5, 0});
+    model.load(source.whole());
+    bool is_elsewhere = false;  // a motion has run on across the border
+    for (int tick = 0; tick < 100; ++tick) {
+      apply_all(model, source.tick());
+      expect_equal(model, source.world());
+      EXPECT_EQ(model.period(), source.world().period());
+      model.for_each([&](const ReplicaBody& body) {
+        const double x = body.motion.x.high;
+        is_elsewhere = is_elsewhere || x < 0 || x >= 22.5;
+      });
+    }
+    EXPECT_TRUE(is_elsewhere);
+    EXPECT_EQ(model.counters().contradictions, 0U);
+  }
+}
+
 TEST(ReplicaModel, AnEvaluationAheadOfTheLastTickHoldsUntilTheNextEvent) {
   MotionSource source(2);
   ReplicaModel model;

@@ -97,8 +97,14 @@ TEST_F(Questions, ThatAreLargeGoToThePublisherBehindTheRecords) {
   EXPECT_EQ(all.picture_queries.size(), 2U);
 }
 
-TEST_F(Questions, ThePictureFollowsTheWorldBitForBit) {
+class Pictures : public Questions, public ::testing::WithParamInterface<double> {};
+
+// In open space, and around a world of 20 m.
+INSTANTIATE_TEST_SUITE_P(Questions, Pictures, ::testing::Values(0.0, 20.0));
+
+TEST_P(Pictures, FollowTheWorldBitForBit) {
   translate::SceneBodies scene = one_disk();
+  scene.period = {GetParam(), 0};
   scene.disks.push_back(
       {.id = 5, .position = {3, 0.25}, .velocity = {-0.7, 0.1}, .radius = 0.4, .spin = 2});
   scene.disk_names.emplace_back("other");
@@ -106,7 +112,7 @@ TEST_F(Questions, ThePictureFollowsTheWorldBitForBit) {
   scene.walls.push_back({.id = 8, .start = {-6, -9}, .end = {-6, 9}});
   scene.wall_names.resize(2);
   begin({.tick_rate = 7}, scene);
-  Picture picture(engine::Arithmetic::Double);
+  Picture picture(engine::Arithmetic::Double, scene.period);
   for (int round = 0; round < 50; ++round) {
     if (round == 20) send(1, 1, spawn_at(0, 4));
     if (round == 30) {
