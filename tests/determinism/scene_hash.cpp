@@ -27,8 +27,10 @@ std::unique_ptr<WorldCore> make_effects_core<long double>(const WorldOptions&) {
 
 // NOLINTBEGIN(bugprone-suspicious-include)
 #include "broad_phase/aabb_tree.cpp"
+#include "broad_phase/box_grid.cpp"
 #include "broad_phase/neighbours.cpp"
 #include "effects.cpp"
+#include "features.cpp"
 #include "make_core.cpp"
 #include "world.cpp"
 #include "world_double.cpp"
