@@ -28,6 +28,7 @@
 #include "motion_law/drag.hpp"
 #include "periodic.hpp"
 #include "screen.hpp"
+#include "sight.hpp"
 #include "world_core.hpp"
 
 #include <optional>
@@ -127,6 +128,24 @@ class BasicWorld final : public WorldCore {
   };
 
   struct Nothing {};
+  /// What a body has before it: bounds of the contacts that it holds with disks, in seconds from
+  /// now, and its first event with a wall.
+  struct Foresight {
+    double first = std::numeric_limits<double>::infinity();
+    double second = std::numeric_limits<double>::infinity();
+    Slot partner = -1;  ///< of the first
+    std::optional<Event<S>> exact;
+
+    void note(Slot other, double soonest) {
+      if (soonest < first) {
+        second = first;
+        first = soonest;
+        partner = other;
+      } else if (soonest < second) {
+        second = soonest;
+      }
+    }
+  };
 
   /// Names the offending element of a command in a refusal.
   struct Place {
@@ -171,6 +190,18 @@ class BasicWorld final : public WorldCore {
   bool may_meet_at(
       Slot slot, const Glance& here, Slot other, const Glance& there, double horizon) const;
   void predict(Slot slot, bool changed);
+  void predict_closely(Slot slot, bool changed);
+  void foresee(Slot slot, bool changed);
+  void prefetch_sights(Slot slot) const;
+  void look_at_unlike(
+      Slot slot, Slot other, bool changed, double now, double renewal, Foresight& ahead);
+  void schedule(Slot slot, const Foresight& ahead, double renewal, double near);
+  double time_to_renewal(Slot slot, const Sight& own, double now) const;
+  void offer(Slot holder, Slot changed, double soonest);
+  void sharpen(Slot slot);
+  bool has_guess(Slot slot) const { return queue_.event_of(slot).kind == EventKind::Guess; }
+  void renew_sight(Slot slot);
+  double time_of_sights();
   void renew_box(Slot slot, double margin);
   Aabb tight_box(Slot slot) const;
   Aabb tight_box(Slot slot, const Glance& here) const;
@@ -205,12 +236,14 @@ class BasicWorld final : public WorldCore {
 
   // basic_world_events.hpp
   bool is_stale(const Event<S>& event) const;
+  Slot next_slot();
   bool process(Slot slot, CollisionSink* sink);
   void resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink);
   bool is_squeezed(const Contact& contact) const;
   double hop(Slot slot, const Time<S>& from, const Time<S>& to) const;
   Vector2 normal_towards(Slot from, Slot to, const Which& image) const;
   bool depends_on_order(Slot shared, Slot other, const Which& image, const Vector2& normal) const;
+  bool is_about_to_meet(Slot slot) const;
   bool is_simultaneous(const Contact& contact,
                        const Time<S>& before_a,
                        const Time<S>& before_b) const;
@@ -378,10 +411,21 @@ class BasicWorld final : public WorldCore {
   [[no_unique_address]] std::conditional_t<Laws::kPlain, Nothing, std::vector<Kicks>> kicks_;
   std::size_t walls_in_use_ = 0;
 
+  /// What a prediction looks at; of kHasSights worlds alone.
+  struct Sights {
+    std::vector<Sight> of_slot;
+    Epoch<S> epoch;
+    std::uint64_t uses = 0;  ///< in this epoch
+  };
+  struct NoSights {};
+  [[no_unique_address]] std::conditional_t<kHasSights<Laws>, Sights, NoSights> sights_;
+
   Neighbours neighbours_;
   EventQueue<S> queue_;
   Time<S> crowded_instant_ = Time<S>::never();  ///< of the last collision
   std::uint64_t crowd_ = 0;                     ///< collisions at that instant since a command
+  std::optional<Contact>
+      due_;  ///< of the event that was sharpened last, until another is processed
 
   // The bodies' digests, brought up to date for those that changed when the hash is asked for.
   struct Digests {
@@ -402,7 +446,9 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
       arithmetic_(options.arithmetic),
       broad_phase_(options.broad_phase),
       laws_(options.effects),
-      space_(options.period) {}
+      space_(options.period) {
+  if constexpr (kHasSights<Laws>) sights_.epoch.begin = now_;
+}
 
 }  // namespace stoss::engine
 

@@ -169,8 +169,8 @@ Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
     if (!fresh.has_sound_supports(slot)) return damaged("what a body rests on is damaged");
   }
   fresh.settle();
-  if (!fresh.queue_.empty() &&
-      fresh.queue_.event_of(fresh.queue_.top(fresh.id_lookup())).at < fresh.now_) {
+  if (const Slot next = fresh.next_slot();
+      next >= 0 && fresh.queue_.event_of(next).at < fresh.now_) {
     return damaged("a contact lies before the present");
   }
   *this = std::move(fresh);

@@ -227,6 +227,7 @@ Slot BasicWorld<S, Laws>::take_slot(Id id, BodyType type) {
   body.motion.since = now_;
   slots_.emplace(body.id, slot);
   queue_.admit(slot);
+  if constexpr (kHasSights<Laws>) sights_.of_slot.resize(bodies_.size());
   note_digest_stale(slot);
   ordered_valid_ = false;
   return slot;
@@ -347,6 +348,7 @@ void BasicWorld<S, Laws>::predict_around(Slot wall) {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::lay_bare(Slot wall) {
   rebase(wall, now_);
+  renew_law(wall);
   predict(wall, /*changed=*/true);
 }
 

@@ -9,6 +9,8 @@
 
 #include <stoss/engine/check.hpp>
 
+#include <utility>
+
 namespace stoss::engine {
 
 template <class S, class Laws>
@@ -26,15 +28,14 @@ Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
                   .reason = "the instant is in the past: the world has moved on"};
   }
   AdvanceReport report;
-  const auto ids = id_lookup();
+  due_.reset();
   const std::uint64_t collisions_before = counters_.collisions;
   const Time<S> end = std::max(now_, from_instant<Time<S>>(until));
-  while (!queue_.empty() && queue_.event_of(queue_.top(ids)).at <= end) {
+  for (Slot slot = next_slot(); slot >= 0 && queue_.event_of(slot).at <= end; slot = next_slot()) {
     if (report.events == max_events) {
       report.stop = Stop::EventBudget;
       break;
     }
-    const Slot slot = queue_.top(ids);
     const Time<S> instant = queue_.event_of(slot).at;
     now_ = std::max(now_, instant);
     if (!process(slot, sink)) {
@@ -48,6 +49,18 @@ Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
   if (report.stop == Stop::Reached) now_ = end;
   report.collisions = counters_.collisions - collisions_before;
   return report;
+}
+
+/// The slot of the next event, which is known exactly; -1 if there is none.
+template <class S, class Laws>
+Slot BasicWorld<S, Laws>::next_slot() {
+  const auto ids = id_lookup();
+  while (!queue_.empty()) {
+    const Slot slot = queue_.top(ids);
+    if (!has_guess(slot)) return slot;
+    sharpen(slot);
+  }
+  return -1;
 }
 
 // With STOSS_VALIDATE every so many events the whole world is looked at.
@@ -86,6 +99,7 @@ bool BasicWorld<S, Laws>::is_stale(const Event<S>& event) const {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   const Event<S> event = queue_.event_of(slot);
+  const std::optional<Contact> due = std::exchange(due_, std::nullopt);
   if (event.kind == EventKind::NeighbourRenewal) {
     ++counters_.renewals;
     if (has_no_place(slot)) return false;
@@ -109,11 +123,20 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
     predict(slot, /*changed=*/false);
     return true;
   }
-  const std::optional<Contact> contact = contact_of(slot, event.partner);
+  const bool is_due = due && ((due->a == slot && due->b == event.partner) ||
+                              (due->b == slot && due->a == event.partner));
+  const std::optional<Contact> contact = is_due ? due : contact_of(slot, event.partner);
   check(contact.has_value(), "a scheduled contact is no contact of the stored motions");
   check(event.at >= now_, "a contact was scheduled in the past");
   if (has_stalled(event.at) || is_squeezed(*contact)) return false;
   count_towards_stall();
+  if constexpr (kHasSights<Laws>) {
+    if (!all_pairs()) {
+      for (const Slot own : {contact->a, contact->b}) {
+        if (at(own).is_dynamic()) prefetch_sights(own);
+      }
+    }
+  }
   resolve(*contact, event.at, sink);
   if (!at(slot).is_dynamic()) predict(slot, /*changed=*/false);
   return true;
@@ -199,6 +222,14 @@ bool BasicWorld<S, Laws>::depends_on_order(Slot shared,
   return depends;
 }
 
+/// Is the next event of a disk a contact, with hardly a way to go?
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_about_to_meet(Slot slot) const {
+  const Event<S>& next = queue_.event_of(slot);
+  const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
+  return next.partner >= 0 && hop(slot, now_, next.at) <= tiny;
+}
+
 // Called after the contact is resolved and its bodies predicted: has one of them just come from
 // another contact, or is it just about to enter one? If so, do the two depend on their order?
 template <class S, class Laws>
@@ -209,8 +240,7 @@ bool BasicWorld<S, Laws>::is_simultaneous(const Contact& contact,
     if (!at(slot).is_dynamic()) return false;
     const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
     if (hop(slot, before, now_) <= tiny) return true;
-    const Event<S>& next = queue_.event_of(slot);
-    return next.partner >= 0 && hop(slot, now_, next.at) <= tiny;
+    return is_about_to_meet(slot);
   };
   if (!crowded(contact.a, before_a) && !crowded(contact.b, before_b)) return false;
   const Vector2 normal = normal_towards(contact.a, contact.b, contact.image);
@@ -276,6 +306,9 @@ void BasicWorld<S, Laws>::resolve(const Contact& contact,
   if (b.is_dynamic()) predict(contact.b, /*changed=*/true);
   if (sink == nullptr) return;
   Collision collision = describe(contact, instant, outcome);
+  for (const Slot slot : {contact.a, contact.b}) {
+    if (has_guess(slot) && is_about_to_meet(slot)) predict_closely(slot, /*changed=*/false);
+  }
   collision.order_dependent = is_simultaneous(contact, before_a, before_b);
   sink->on_collision(collision);
 }

@@ -191,9 +191,10 @@ S BasicWorld<S, Laws>::valid_for(Slot a, Slot b, const Time<S>& reference) const
   }
 }
 
-/// Sets what the law makes of a velocity that has just been written.
+/// Sets what follows from a velocity that has just been written: the law's part, and the sight.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_law(Slot slot) {
+  renew_sight(slot);
   if constexpr (Laws::kCurved) {
     Body<S, Laws>& body = at(slot);
     body.moves_for = {std::numeric_limits<S>::infinity(), S(0)};

@@ -5,6 +5,7 @@
 
 #include "basic_world.hpp"
 #include "contact_time/disk_disk.hpp"
+#include "prefetch.hpp"
 #include "screen.hpp"
 
 namespace stoss::engine {
@@ -324,6 +325,15 @@ bool BasicWorld<S, Laws>::may_meet_at(
 // its neighbours hold are offered to them.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::predict(Slot slot, bool changed) {
+  if constexpr (kHasSights<Laws>) {
+    if (!all_pairs() && !is_periodic()) return foresee(slot, changed);
+  }
+  predict_closely(slot, changed);
+}
+
+// By the kernels: the event is exact.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::predict_closely(Slot slot, bool changed) {
   const auto ids = id_lookup();
   const Glance here = glance_of(slot);
   Event<S> best = renewal_event(slot, here);
@@ -348,6 +358,183 @@ void BasicWorld<S, Laws>::predict(Slot slot, bool changed) {
   });
   if (!all_pairs()) neighbours_.note_work(slot);
   queue_.set(slot, best, ids);
+}
+
+// By sights: of what the body has before it, the soonest becomes its event as a guess, and a kernel
+// is asked when it is due; most guesses are overtaken by other contacts before. What is due at
+// once, and walls, are predicted closely.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
+  if constexpr (kHasSights<Laws>) {
+    constexpr double kNear = 1e-9;  // s; sooner, a guess would not be below the resolution of time
+    const double now = time_of_sights();
+    const Sight own = sights_.of_slot[index(slot)];
+    const double smallest_held = own.radius * (1.0 / kHolderRatioMax);
+    const double renewal = time_to_renewal(slot, own, now);
+    Foresight ahead;
+    if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
+    const auto look_at = [&](Slot other) {
+      const Sight& there = sights_.of_slot[index(other)];
+      if (there.type == BodyType::Dynamic && there.radius >= smallest_held) {
+        ahead.note(other, soonest_contact(own, there, now, kScreenSlack<S>));
+      } else {
+        look_at_unlike(slot, other, changed, now, renewal, ahead);
+      }
+    };
+    if (own.type == BodyType::Dynamic) {
+      prefetch_sights(slot);
+      for (const Slot other : neighbours_.of(slot)) look_at(other);
+    } else {
+      for_each_neighbour(slot, [&](Slot other) {
+        if (changed) look_at_unlike(slot, other, changed, now, renewal, ahead);
+      });
+    }
+    neighbours_.note_work(slot);
+    schedule(slot, ahead, renewal, kNear);
+  }
+}
+
+/// Asks for all that a prediction of the body will look at: one wait instead of a dozen.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::prefetch_sights([[maybe_unused]] Slot slot) const {
+  if constexpr (kHasSights<Laws>) {
+    for (const Slot other : neighbours_.of(slot)) prefetch(&sights_.of_slot[index(other)]);
+  }
+}
+
+// A neighbour that is a wall, fixed, or a much smaller disk, which holds the pair itself.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::look_at_unlike(
+    Slot slot, Slot other, bool changed, double now, double renewal, Foresight& ahead) {
+  const bool is_held = holds_prediction(slot, other);
+  if (!is_held && !changed) return;
+  if (!at(slot).is_wall() && !at(other).is_wall()) {
+    const double soonest = soonest_contact(
+        sights_.of_slot[index(slot)], sights_.of_slot[index(other)], now, kScreenSlack<S>);
+    return is_held ? ahead.note(other, soonest) : offer(other, slot, soonest);
+  }
+  if (!is_held) return offer(other, slot, 0);
+  // Rather more than the bound of a guess: the guess may come later, but hardly so much.
+  constexpr double kBeyond = 1.25;
+  double horizon = std::min(renewal, kBeyond * ahead.first);
+  if (ahead.exact) horizon = std::min(horizon, horizon_of(*ahead.exact));
+  if (!may_meet(slot, glance_of(slot), other, horizon)) {
+    ahead.second = std::min(ahead.second, horizon);
+    return;
+  }
+  const auto event = event_with(slot, other);
+  if (event && (!ahead.exact || earlier(*event, slot, *ahead.exact, slot, id_lookup()))) {
+    ahead.exact = event;
+  }
+}
+
+// Makes the first of what lies ahead the body's event.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double renewal, double near) {
+  if (ahead.first < near) return predict_closely(slot, /*changed=*/false);
+  Event<S> next;
+  double limit = renewal;
+  if (ahead.exact) {
+    const double due = rough_seconds(ahead.exact->at, now_);
+    if (due < limit) next = *ahead.exact;
+    limit = std::min(limit, due);
+  }
+  if (ahead.first < limit) {
+    const Slot partner = ahead.partner;
+    next = {roughly_later(now_, ahead.first),
+            partner,
+            at(partner).changes,
+            EventKind::Guess,
+            at(partner).id,
+            safe_difference(std::min(ahead.second, limit), ahead.first)};
+  } else if (limit == renewal) {
+    next = Event<S>{};
+    next.at = roughly_later(now_, renewal);
+  }
+  queue_.set(slot, next, id_lookup());
+}
+
+/// Seconds until the body leaves its box, a little less; infinity if it never does.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::time_to_renewal(Slot slot, const Sight& own, double now) const {
+  constexpr double kEarly = 1 - 1e-6;
+  const auto& anchor = neighbours_.anchor(slot);
+  const double margin = neighbours_.margin(slot) * kEarly;
+  if (!(own.off < 1e-6 * margin)) {  // far from the origin
+    const Event<S> event = renewal_event(slot, glance_of(slot));
+    return event.at == Time<S>::never() ? std::numeric_limits<double>::infinity()
+                                        : rough_seconds(event.at, now_);
+  }
+  const double elapsed = now - own.since;
+  const double moved_x = (own.x + own.vx * elapsed) - (anchor.x + anchor.x_low);
+  const double moved_y = (own.y + own.vy * elapsed) - (anchor.y + anchor.y_low);
+  // Where a component is zero, so is its share: margin / 0 is infinite.
+  const double after_x = (margin - std::copysign(moved_x, moved_x * own.vx)) / std::abs(own.vx);
+  const double after_y = (margin - std::copysign(moved_y, moved_y * own.vy)) / std::abs(own.vy);
+  return std::max(0.0, std::min(after_x, after_y));
+}
+
+// A pair that `holder` holds has changed; it does not meet before `soonest`, s from now.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
+  const auto ids = id_lookup();
+  Event<S> theirs = queue_.event_of(holder);
+  const double horizon = horizon_of(theirs);
+  const bool may_be_first =
+      soonest < horizon && may_meet(changed, glance_of(changed), holder, horizon);
+  if (may_be_first) {
+    const auto event = event_with(holder, changed);
+    if (!event) return;
+    if (earlier(*event, holder, theirs, holder, ids)) {
+      queue_.set(holder, *event, ids);
+      return;
+    }
+    soonest = std::max(soonest, rough_seconds(event->at, now_));
+  }
+  if (theirs.kind != EventKind::Guess) return;
+  const float clear_for = safe_difference(soonest, horizon);
+  if (!(clear_for < theirs.clear_for)) return;
+  theirs.clear_for = clear_for;
+  queue_.set(holder, theirs, ids);
+}
+
+// The guess of a body has come up: asks the kernel.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::sharpen(Slot slot) {
+  const Event<S> guess = queue_.event_of(slot);
+  prefetch(&at(slot).motion.since);
+  prefetch(&at(guess.partner).motion.since);
+  neighbours_.prefetch_entry(slot);
+  neighbours_.prefetch_entry(guess.partner);
+  if (is_stale(guess)) return predict(slot, /*changed=*/false);
+  const std::optional<Contact> contact = contact_of(slot, guess.partner);
+  const auto event = contact ? event_of(*contact, guess.partner) : std::nullopt;
+  if (!event || !(rough_seconds(event->at, guess.at) < static_cast<double>(guess.clear_for))) {
+    return predict_closely(slot, /*changed=*/false);
+  }
+  due_ = contact;
+  queue_.set(slot, *event, id_lookup());
+}
+
+/// The present as sights count it, s; takes them anew where their epoch is over.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::time_of_sights() {
+  if constexpr (kHasSights<Laws>) {
+    ++sights_.uses;
+    const double now = rough_seconds(now_, sights_.epoch.begin);
+    if (now <= sights_.epoch.length) return now;
+    sights_.epoch.renew(now_, std::exchange(sights_.uses, 0), slots_.size());
+    for (Slot slot = 0; index(slot) < bodies_.size(); ++slot) renew_sight(slot);
+  }
+  return 0;
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::renew_sight([[maybe_unused]] Slot slot) {
+  if constexpr (kHasSights<Laws>) {
+    const Body<S, Laws>& body = at(slot);
+    sights_.of_slot[index(slot)] = sight_of(body.motion, body.radius, body.type, sights_.epoch);
+  }
 }
 
 /// The body's extent at now(), in doubles, and what rounding may add to it.

@@ -36,6 +36,9 @@ enum class EventKind : std::uint8_t {
   DiskWallEnd = 3,
   LawChange = 4,  ///< of one body by itself: its stop, or the end of its slide
   Kick = 6,       ///< of one body by the thermostat
+  /// Some contact, no earlier than this: a kernel is asked when it comes up. Before all others, so
+  /// that it is known when its turn is.
+  Guess = 255,
 };
 
 template <class S>
@@ -45,6 +48,7 @@ struct Event {
   std::uint32_t partner_changes = 0;  ///< the partner's count when this was predicted
   EventKind kind = EventKind::NeighbourRenewal;
   Id partner_id = kNoId;  ///< kept here: a slot may be given to another body while the event waits
+  float clear_for = 0;    ///< s; of a guess: the body has no other event so soon after `at`
 };
 
 /// The ids of an event's bodies, lower first.
@@ -54,6 +58,9 @@ struct IdPair {
   friend auto operator<=>(const IdPair&, const IdPair&) = default;
 };
 
+/// The order of kinds at one instant.
+inline int rank(EventKind kind) { return kind == EventKind::Guess ? -1 : static_cast<int>(kind); }
+
 /// REQUIRES of Ids: `IdPair operator()(slot, const Event&) const`.
 template <class S, class Ids>
 bool earlier(const Event<S>& a,
@@ -62,7 +69,7 @@ bool earlier(const Event<S>& a,
              std::int32_t slot_b,
              const Ids& ids) {
   if (a.at != b.at) return a.at < b.at;
-  if (a.kind != b.kind) return a.kind < b.kind;
+  if (a.kind != b.kind) return rank(a.kind) < rank(b.kind);
   return ids(slot_a, a) < ids(slot_b, b);
 }
 

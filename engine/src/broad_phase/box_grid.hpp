@@ -17,6 +17,7 @@
 // holds at least one item.
 
 #include "broad_phase/aabb.hpp"
+#include "prefetch.hpp"
 
 #include <algorithm>
 #include <array>
@@ -129,20 +130,45 @@ class BoxGrid {
       }
       return;
     }
-    const std::int64_t x0 = floor_of(first_x), x1 = floor_of(last_x);
-    const std::int64_t y0 = floor_of(first_y), y1 = floor_of(last_y);
+    // The first items of the cells are asked for all at once, before any is looked at.
+    constexpr std::size_t kBatch = 32;
+    std::array<std::int32_t, kBatch> first;
+    std::size_t count = 0;
+    const auto flush = [&] {
+      for (std::size_t i = 0; i < count; ++i) visit_cell(first[i], box, visit);
+      count = 0;
+    };
+    for_each_cell({floor_of(first_x), floor_of(first_y), floor_of(last_x), floor_of(last_y)},
+                  level.level,
+                  [&](std::int32_t item) {
+                    if (item == kNull) return;
+                    prefetch(&items_[index(item)]);
+                    first[count++] = item;
+                    if (count == kBatch) flush();
+                  });
+    flush();
+  }
+
+  struct CellRange {
+    std::int64_t x0, y0, x1, y1;
+  };
+
+  /// Calls visit(first item or kNull) for the cells of a range in blocks that there are.
+  template <class Visit>
+  void for_each_cell(const CellRange& range, std::int32_t level, Visit&& visit) const {
+    const auto [x0, y0, x1, y1] = range;
     for (std::int64_t by = y0 >> 2; by <= y1 >> 2; ++by) {
       const std::int64_t row0 = std::max(y0, by * kBlockSide);
       const std::int64_t row1 = std::min(y1, by * kBlockSide + kBlockSide - 1);
       for (std::int64_t bx = x0 >> 2; bx <= x1 >> 2; ++bx) {
-        const std::int32_t block = find_block(bx, by, level.level);
+        const std::int32_t block = find_block(bx, by, level);
         if (block == kNull) continue;
         const Block& cells = blocks_[index(block)];
         const std::int64_t column0 = std::max(x0, bx * kBlockSide);
         const std::int64_t column1 = std::min(x1, bx * kBlockSide + kBlockSide - 1);
         for (std::int64_t y = row0; y <= row1; ++y) {
           for (std::int64_t x = column0; x <= column1; ++x) {
-            visit_cell(cells.first[place_in_block(x, y)], box, visit);
+            visit(cells.first[place_in_block(x, y)]);
           }
         }
       }

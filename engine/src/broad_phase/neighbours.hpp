@@ -25,6 +25,7 @@
 #include "broad_phase/aabb_tree.hpp"
 #include "broad_phase/box_grid.hpp"
 #include "broad_phase/list_pool.hpp"
+#include "prefetch.hpp"
 #include "screen.hpp"
 
 #include <algorithm>
@@ -57,6 +58,8 @@ class Neighbours {
 
   /// REQUIRES: of a dynamic disk.
   std::span<const Slot> of(Slot slot) const { return pool_.items(entries_[index(slot)].list); }
+  /// Asks for what of() and anchor() will read.
+  void prefetch_entry(Slot slot) const { prefetch(&entries_[index(slot)]); }
   double margin(Slot slot) const { return entries_[index(slot)].margin; }
   /// Where the body was when its box was made.
   const Anchor& anchor(Slot slot) const { return entries_[index(slot)].anchor; }
@@ -91,7 +94,9 @@ class Neighbours {
     found_.clear();
     copies(box, [&](const Aabb& copy) {
       query(copy, [&](Slot other) {
-        if (interacts(other)) found_.push_back(other);
+        if (!interacts(other)) return;
+        prefetch(&entries_[index(other)]);
+        found_.push_back(other);
       });
     });
     if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(found_);
