@@ -26,7 +26,7 @@ CLEAR = 1e-9
 
 
 class Scene:
-    """Disks and walls in the order of their ids, which count up from 1."""
+    """Disks, walls and zones in the order of their ids, which count up from 1."""
 
     def __init__(self, name, period=(0, 0)):
         self.name = name
@@ -35,6 +35,7 @@ class Scene:
         self.seed = 0
         self.disks = []
         self.walls = []
+        self.zones = []
 
     def disk(self, x, y, radius, vx=0.0, vy=0.0, mass=1.0, name="", kind="DYNAMIC"):
         self.disks.append(dict(x=float(x), y=float(y), radius=float(radius), vx=float(vx),
@@ -43,6 +44,14 @@ class Scene:
     def wall(self, x1, y1, x2, y2, name="", velocity=(0, 0)):
         self.walls.append(dict(start=(float(x1), float(y1)), end=(float(x2), float(y2)), name=name,
                                velocity=velocity))
+
+    def chain(self, points, name=""):
+        """Walls from point to point."""
+        for (x1, y1), (x2, y2) in zip(points, points[1:]):
+            self.wall(x1, y1, x2, y2, name)
+
+    def zone(self, x, y, radius, name=""):
+        self.zones.append(dict(center=(float(x), float(y)), radius=float(radius), name=name))
 
     def box(self, left, bottom, right, top):
         """Four walls around a room."""
@@ -184,13 +193,9 @@ def newtons_cradle():
     return scene
 
 
-def pool_break():
-    # A nine-foot table and balls of 57.15 mm and 170 g. The rack leaves a micrometre between balls:
-    # a perfect touching triangle has no representation in doubles. The cue ball comes a little off
-    # the centre line, so nothing is symmetric.
-    scene = Scene("pool-break")
-    radius, mass, gap = 0.028575, 0.17, 1e-6
-    scene.disk(0.635, 0.6372, radius, vx=10, vy=0, mass=mass, name="cue")
+def rack(scene, gap):
+    """Fifteen balls of 57.15 mm and 170 g, so far apart, at the foot of a nine-foot table."""
+    radius, mass = 0.028575, 0.17
     pitch = 2 * radius + gap
     number = 1
     for row in range(5):
@@ -200,7 +205,46 @@ def pool_break():
             # Nanometre decimals keep at least 0.998 of the gap.
             scene.disk(round(x, 9), round(y, 9), radius, mass=mass, name=f"{number}")
             number += 1
+
+
+def pool_break():
+    # A nine-foot table without pockets. The rack leaves a micrometre between balls: a perfect
+    # touching triangle has no representation in doubles. The cue ball comes a little off the centre
+    # line, so nothing is symmetric.
+    scene = Scene("pool-break")
+    scene.disk(0.635, 0.6372, 0.028575, vx=10, vy=0, mass=0.17, name="cue")
+    rack(scene, 1e-6)
     scene.box(0, 0, 2.54, 1.27)
+    return scene
+
+
+def billiards():
+    # The same table with its pockets: the rails are one closed chain that bulges around each of
+    # them, and a zone in each bulge tells which ball is in. Friction of the cloth as of a rolling
+    # ball, 0.01 g; cushions that give back three quarters of the speed.
+    scene = Scene("billiards")
+    scene.effects = {"floor_friction": {"deceleration": 0.0981},
+                     "restitution": {"coefficient": 0.95, "wall_coefficient": 0.75}}
+    scene.disk(0.635, 0.6372, 0.028575, vx=7, vy=0, mass=0.17, name="cue")
+    rack(scene, 1e-6)
+    length, width, middle = 2.54, 1.27, 1.27
+    mouth, throat, depth = 0.085, 0.055, 0.09  # of a corner: along the rail, further out, behind it
+    side, narrow, back = 0.065, 0.05, 0.08  # of the middle pockets, likewise
+    # From the south-west corner's mouth along the south rail, and so on all the way round.
+    half = [(mouth, 0), (middle - side, 0), (middle - narrow, -back), (middle + narrow, -back),
+            (middle + side, 0), (length - mouth, 0), (length - throat, -depth),
+            (length + depth, -depth), (length + depth, throat), (length, mouth),
+            (length, width - mouth)]
+    other = [(round(length - x, 6), round(width - y, 6)) for x, y in half]
+    corner = [(length + depth, width - throat), (length + depth, width + depth),
+              (length - throat, width + depth)]
+    far_corner = [(round(length - x, 6), round(width - y, 6)) for x, y in corner]
+    scene.chain(half + corner + other + far_corner + half[:1], "rail")
+    for i, (x, y) in enumerate([(0, 0), (length, 0), (length, width), (0, width)]):
+        scene.zone(x + math.copysign(0.03, x - 1), y + math.copysign(0.03, y - 1), 0.06,
+                   f"corner pocket {i + 1}")
+    scene.zone(middle, -0.04, 0.045, "middle pocket 1")
+    scene.zone(middle, width + 0.04, 0.045, "middle pocket 2")
     return scene
 
 
@@ -392,6 +436,12 @@ def wall_line(index, wall):
     return "    {" + ", ".join(parts) + "}"
 
 
+def zone_line(index, zone):
+    parts = [f'"id": {index}', f'"name": "{zone["name"]}"',
+             f'"center": {vector(*zone["center"])}', f'"radius": {number(zone["radius"])}']
+    return "    {" + ", ".join(parts) + "}"
+
+
 def to_json(scene):
     disks = ",\n".join(disk_line(i, d) for i, d in enumerate(scene.disks, 1))
     first = len(scene.disks) + 1
@@ -399,8 +449,11 @@ def to_json(scene):
     period = f'  "period": {vector(*scene.period)},\n' if any(scene.period) else ""
     effects = f'  "effects": {json.dumps(scene.effects)},\n' if scene.effects else ""
     seed = f'  "seed": "{scene.seed}",\n' if scene.seed else ""
+    first += len(scene.walls)
+    lines = ",\n".join(zone_line(i, z) for i, z in enumerate(scene.zones, first))
+    zones = f',\n  "zones": [\n{lines}\n  ]' if scene.zones else ""
     return (f'{{\n  "name": "{scene.name}",\n{period}{effects}{seed}  "disks": [\n{disks}\n  ],\n'
-            f'  "walls": [\n{walls}\n  ]\n}}\n')
+            f'  "walls": [\n{walls}\n  ]{zones}\n}}\n')
 
 
 def main():
@@ -410,7 +463,7 @@ def main():
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
     arguments = parser.parse_args()
     scenes = [tutorial(), newtons_cradle(), pool_break(), bullets(), gas(), polydisperse(),
-              periodic_gas(), channel(), packing(), sinking()]
+              periodic_gas(), channel(), packing(), sinking(), billiards()]
     scenes += [pi_digits(k) for k in range(5)]
     scenes += effect_scenes()
     stale = []

@@ -9,10 +9,13 @@ static_assert(kCommandBodiesMax == stoss_v1_MAX_COMMAND_BODIES);
 
 Command::Command(idl::Op op) { spec_.op = idl::wire_value(op); }
 
-Command Command::spawn(std::vector<engine::DiskSpec> disks, std::vector<engine::WallSpec> walls) {
+Command Command::spawn(std::vector<engine::DiskSpec> disks,
+                       std::vector<engine::WallSpec> walls,
+                       std::vector<engine::ZoneSpec> zones) {
   Command command(idl::Op::kSpawn);
   command.spec_.disks = std::move(disks);
   command.spec_.walls = std::move(walls);
+  command.spec_.zones = std::move(zones);
   return command;
 }
 

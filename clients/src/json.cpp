@@ -30,6 +30,18 @@ void append_json(std::string& out, const engine::Collision& collision) {
                          .order_dependent = collision.order_dependent});
 }
 
+void append_json(std::string& out, const engine::ZoneEvent& event) {
+  idl::append_zone_event(out,
+                         {.sequence = event.sequence,
+                          .seconds = event.instant.seconds,
+                          .fraction = event.instant.fraction,
+                          .zone = event.zone,
+                          .body = event.body,
+                          .entered = event.entered,
+                          .position = pair(event.position),
+                          .velocity = pair(event.velocity)});
+}
+
 void append_json(std::string& out, const engine::BodyState& state) {
   idl::append_body_state(out,
                          {.id = state.id,

@@ -61,6 +61,14 @@ Query Query::collisions(std::uint64_t first, std::uint64_t count) {
   return query;
 }
 
+Query Query::zone_events(std::uint64_t first, std::uint64_t count) {
+  Query query;
+  query.op = idl::Ask::kZoneEvents;
+  query.number = first;
+  query.count = count;
+  return query;
+}
+
 Query Query::features() {
   Query query;
   query.op = idl::Ask::kFeatures;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <stoss/client/feeds.hpp>
 #include <stoss/client/replica.hpp>
 #include <stoss/dds/waitset.hpp>
 #include <stoss/idl/topics.hpp>
@@ -55,6 +56,8 @@ class Replica::Impl {
   ReplicaModel model;                                  ///< under the mutex
   std::optional<std::chrono::nanoseconds> completed_;  ///< under the mutex
 
+  std::vector<engine::ZoneState> zones();
+
  private:
   void run();
   void handle(std::intptr_t tag);
@@ -79,6 +82,10 @@ class Replica::Impl {
   std::uint64_t behind_epoch_ = 0;
   std::uint64_t behind_number_ = 0;
 
+  std::mutex scene_mutex_;
+  SceneFeed scene_;                       ///< under the scene's mutex, as are
+  std::vector<engine::ZoneState> zones_;  ///< the zones that it told last
+
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };
@@ -94,7 +101,8 @@ Replica::Impl::Impl(Session& session, ReplicaOptions options)
       motions_(idl::make_reader(subscriber_, motion_topic_, idl::kMotionTopic)),
       status_(idl::make_reader(subscriber_, status_topic_, idl::kStatusTopic)),
       box_(std::make_shared<AnswerBox>(session.participant())),
-      waitset_(session.participant()) {
+      waitset_(session.participant()),
+      scene_(session) {
   model.on_tick = std::move(options.on_tick);
   waitset_.attach(box_->arrived, kTagWake);
   waitset_.attach(motions_, kTagMotion);
@@ -106,6 +114,12 @@ Replica::Impl::~Impl() {
   stopping_ = true;
   box_->arrived.set();
   thread_.join();
+}
+
+std::vector<engine::ZoneState> Replica::Impl::zones() {
+  const std::lock_guard lock(scene_mutex_);
+  while (auto scene = scene_.next(Milliseconds{0})) zones_ = std::move(scene->zones);
+  return zones_;
 }
 
 void Replica::Impl::run() {
@@ -266,5 +280,7 @@ std::vector<engine::WallState> Replica::walls(std::optional<engine::Instant> at)
   });
   return result;
 }
+
+std::vector<engine::ZoneState> Replica::zones() const { return impl_->zones(); }
 
 }  // namespace stoss::client

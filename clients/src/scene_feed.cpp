@@ -27,7 +27,9 @@ bool consistent(const wire::SceneChunk& chunk) {
               chunk.wall_end_x._length,
               chunk.wall_end_y._length,
               chunk.wall_vx._length,
-              chunk.wall_vy._length});
+              chunk.wall_vy._length}) &&
+         all(chunk.zone_id._length,
+             {chunk.zone_x._length, chunk.zone_y._length, chunk.zone_radius._length});
 }
 
 SceneImage image_of(const wire::SceneChunk& chunk) {
@@ -54,6 +56,11 @@ SceneImage image_of(const wire::SceneChunk& chunk) {
                            {chunk.wall_start_x._buffer[i], chunk.wall_start_y._buffer[i]},
                            {chunk.wall_end_x._buffer[i], chunk.wall_end_y._buffer[i]},
                            {chunk.wall_vx._buffer[i], chunk.wall_vy._buffer[i]}});
+  }
+  for (std::size_t i = 0; i < chunk.zone_id._length; ++i) {
+    image.zones.push_back({chunk.zone_id._buffer[i],
+                           {chunk.zone_x._buffer[i], chunk.zone_y._buffer[i]},
+                           chunk.zone_radius._buffer[i]});
   }
   for (const wire::Name& name : idl::view(chunk.names)) {
     image.names.emplace_back(name.of, std::string(idl::text(name.text)));
@@ -92,6 +99,7 @@ class SceneFeed::Impl {
     for (auto it = std::next(chunks.begin()); it != chunks.end(); ++it) {
       add_to(whole.disks, it->second.disks);
       add_to(whole.walls, it->second.walls);
+      add_to(whole.zones, it->second.zones);
       add_to(whole.names, it->second.names);
     }
     return whole;

@@ -15,7 +15,7 @@ using engine::Reject;
 
 EncodedCommand::EncodedCommand(const translate::CommandSpec& spec,
                                const translate::RequestId& request)
-    : ids_(spec.ids), disks_(spec.disks) {
+    : ids_(spec.ids), disks_(spec.disks), zones_(spec.zones) {
   sample_.request = translate::to_wire(request);
   sample_.protocol = idl::kProtocol;
   sample_.op = spec.op;
@@ -34,6 +34,7 @@ EncodedCommand::EncodedCommand(const translate::CommandSpec& spec,
   disks_.lend(sample_.disks);
   for (const engine::WallSpec& wall : spec.walls) walls_.append(wall);
   walls_.lend(sample_.walls, 0, walls_.size());
+  zones_.lend(sample_.zones);
   const auto name = [this](std::uint64_t of, const std::string& text) {
     idl::wire::Name& to = names_.emplace_back();
     to.of = of;
@@ -63,7 +64,10 @@ std::optional<Reject> too_large(const translate::CommandSpec& spec) {
   if (spec.vectors.size() > kCommandBodiesMax) return refuse("ids", limit);
   if (spec.disks.size() > kCommandBodiesMax) return refuse("disks", limit);
   if (spec.walls.size() > kCommandBodiesMax) return refuse("walls", limit);
-  if (spec.disks.size() + spec.walls.size() > kCommandBodiesMax) return refuse("walls", limit);
+  if (spec.zones.size() > kCommandBodiesMax) return refuse("zones", limit);
+  if (spec.disks.size() + spec.walls.size() + spec.zones.size() > kCommandBodiesMax) {
+    return refuse("walls", limit);
+  }
   if (spec.names.size() > kCommandBodiesMax) return refuse("names", limit);
   if (spec.effects_off.size() + spec.settings.size() > kCommandBodiesMax) {
     return refuse("names", limit);
@@ -133,7 +137,8 @@ namespace {
 bool consistent(const idl::wire::Answer& answer) {
   return translate::consistent(answer.states) && translate::consistent(answer.walls) &&
          translate::consistent(answer.hits) && translate::consistent(answer.motions) &&
-         translate::consistent(answer.statics) && translate::consistent(answer.collisions);
+         translate::consistent(answer.statics) && translate::consistent(answer.collisions) &&
+         translate::consistent(answer.zone_events);
 }
 
 FoundBody found_body(const idl::wire::StateBlock& block, const engine::Instant& at, std::size_t i) {
@@ -165,6 +170,7 @@ engine::Outcome<Answer> decode(const idl::wire::Answer& answer) {
   result.epoch = answer.epoch;
   result.motion_number = answer.motion_number;
   result.collision_number = answer.collision_number;
+  result.zone_number = answer.zone_number;
   result.state_hash = answer.state_hash;
   for (std::size_t i = 0; i < answer.states.id._length; ++i) {
     result.bodies.push_back(found_body(answer.states, result.at, i));
@@ -185,6 +191,10 @@ engine::Outcome<Answer> decode(const idl::wire::Answer& answer) {
   }
   for (std::size_t i = 0; i < answer.collisions.a._length; ++i) {
     result.collisions.push_back(translate::collision_at(answer.collisions, answer.first_number, i));
+  }
+  for (std::size_t i = 0; i < answer.zone_events.zone._length; ++i) {
+    result.zone_events.push_back(
+        translate::zone_event_at(answer.zone_events, answer.first_number, i));
   }
   for (const auto& feature : idl::view(answer.features)) {
     result.features.emplace_back(idl::text(feature));
@@ -209,6 +219,7 @@ void append(Answer& to, Answer&& chunk) {
   move_to_end(to.motions, chunk.motions);
   move_to_end(to.statics, chunk.statics);
   move_to_end(to.collisions, chunk.collisions);
+  move_to_end(to.zone_events, chunk.zone_events);
   move_to_end(to.features, chunk.features);
   if (!to.status) to.status = std::move(chunk.status);
 }

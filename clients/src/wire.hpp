@@ -31,6 +31,7 @@ class EncodedCommand {
   std::vector<double> y_;
   translate::DiskColumns disks_;
   translate::WallColumns walls_;
+  translate::ZoneColumns zones_;
   std::vector<idl::wire::Name> names_;
 };
 

@@ -30,6 +30,7 @@
 #include "screen.hpp"
 #include "sight.hpp"
 #include "world_core.hpp"
+#include "zone_passages.hpp"
 
 #include <optional>
 #include <string>
@@ -57,8 +58,9 @@ class BasicWorld final : public WorldCore {
   BroadPhaseKind broad_phase() const override { return broad_phase_; }
   Effects effects() const override { return laws_.effects(); }
   Vector2 period() const override;
-  std::size_t disk_count() const override { return slots_.size() - walls_in_use_; }
+  std::size_t disk_count() const override { return slots_.size() - walls_in_use_ - zones_in_use_; }
   std::size_t wall_count() const override { return walls_in_use_; }
+  std::size_t zone_count() const override { return zones_in_use_; }
   Counters counters() const override { return counters_; }
   Conserved conserved() const override;
 
@@ -76,6 +78,9 @@ class BasicWorld final : public WorldCore {
   Outcome<WallState> wall(Id id) const override;
   void for_each_disk(const std::function<void(const BodyState&)>& visit) const override;
   void for_each_wall(const std::function<void(const WallState&)>& visit) const override;
+  Outcome<ZoneState> zone(Id id) const override;
+  void for_each_zone(const std::function<void(const ZoneState&)>& visit) const override;
+  Outcome<std::vector<Id>> inside(Id zone) const override;
   std::vector<Id> region(const Vector2& low, const Vector2& high) const override;
   std::vector<Near> nearest(const Vector2& point, std::size_t count) const override;
   std::optional<RayHit> ray(const Vector2& origin,
@@ -111,6 +116,12 @@ class BasicWorld final : public WorldCore {
     Relative relative;  ///< disk-disk: b from a; else: disk from the wall's start or end
     Duration<S> after_reference{};        ///< s
     [[no_unique_address]] Which image{};  ///< of b, that a meets
+  };
+
+  /// The next crossing of a zone's rim by a disk.
+  struct RimCrossing {
+    Time<S> at;
+    [[no_unique_address]] Which image{};  ///< of the zone, that the disk sees
   };
 
   /// What a contact does to its bodies.
@@ -206,6 +217,7 @@ class BasicWorld final : public WorldCore {
   Aabb tight_box(Slot slot) const;
   Aabb tight_box(Slot slot, const Glance& here) const;
   double smallest_margin(Slot slot) const;
+  double first_margin(Slot slot) const;
 
   // basic_world_images.hpp
   bool is_periodic() const;
@@ -232,6 +244,8 @@ class BasicWorld final : public WorldCore {
   double speed_max() const;
   std::optional<Reject> check_room(const DiskSpec& spec, std::size_t i) const;
   std::optional<Reject> check_room(const WallSpec& spec, std::size_t i) const;
+  std::optional<Reject> check_room(const ZoneSpec& spec, std::size_t i) const;
+  static bool is_near(const Image& k);
   bool is_in_bounds(Slot slot) const;
 
   // basic_world_events.hpp
@@ -298,6 +312,27 @@ class BasicWorld final : public WorldCore {
   void write_body_part(Sink& sink, Slot slot, const Effects& kind) const;
   void read_body_part(ByteSource& source, Slot slot);
 
+  // basic_world_zones.hpp
+  bool is_zone(Slot slot) const;
+  bool is_zone_and_disk(Slot a, Slot b) const;
+  std::optional<Reject> check_zone(const ZoneSpec& spec, std::size_t i) const;
+  Slot place(const ZoneSpec& spec);
+  void find_who_is_inside(Slot slot);
+  bool may_cross(
+      Slot a, const Glance& here, Slot b, const Glance& there, double horizon, double bend) const;
+  std::optional<RimCrossing> crossing_of(Slot disk, Slot zone) const;
+  std::optional<Event<S>> zone_event_of(Slot disk, Slot zone) const;
+  void process_crossing(Slot disk, const Event<S>& event, CollisionSink* sink);
+  Event<S> next_but_for_zones(Slot disk) const;
+  void begin_motion(Slot slot, const Time<S>& instant);
+  void forget_passages(Slot slot);
+  ZoneState zone_of(Slot slot) const;
+  std::size_t passage_count(Slot slot) const;
+  template <class Sink>
+  void write_passages(Sink& sink, Slot slot) const;
+  bool read_passages(ByteSource& source, Slot slot, std::uint64_t count);
+  bool has_sound_passages(Slot slot) const;
+
   // basic_world_rest.hpp
   /// What holds a disk besides the body that it has just met; kNoId where that one is enough.
   struct Hold {
@@ -355,7 +390,9 @@ class BasicWorld final : public WorldCore {
   void predict_around(Slot wall);
   void lay_bare(Slot wall);
   bool same_vertex(const WallEnd& a, const WallEnd& b) const;
-  void note_change(Slot slot, ChangeKind kind) { changes_.note(at(slot).id, kind); }
+  void note_change(Slot slot, ChangeKind kind) {
+    if (!is_zone(slot)) changes_.note(at(slot).id, kind);
+  }
 
   // basic_world_queries.hpp
   Slot slot_of(Id id) const { return slots_.at(id); }
@@ -388,6 +425,7 @@ class BasicWorld final : public WorldCore {
   template <class Sink>
   void write_body(Sink& sink, Slot slot, const Effects& kind) const;
   void note_digest_stale(Slot slot);
+  const char* read_bodies(ByteSource& source);
   void read_body(ByteSource& source, Id id, BodyType type);
   bool is_sound(Slot slot) const;
   void settle();
@@ -410,6 +448,8 @@ class BasicWorld final : public WorldCore {
   // By slot; empty without a thermostat.
   [[no_unique_address]] std::conditional_t<Laws::kPlain, Nothing, std::vector<Kicks>> kicks_;
   std::size_t walls_in_use_ = 0;
+  std::size_t zones_in_use_ = 0;
+  [[no_unique_address]] std::conditional_t<Laws::kPlain, NoZonePassages, ZonePassages<S>> passages_;
 
   /// What a prediction looks at; of kHasSights worlds alone.
   struct Sights {
@@ -464,3 +504,4 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
 #include "basic_world_rest.hpp"
 #include "basic_world_switch.hpp"
 #include "basic_world_thermostat.hpp"
+#include "basic_world_zones.hpp"

@@ -5,8 +5,10 @@
 //
 // Layout, in 64-bit words: magic, format, arithmetic, effects and periods, now, collisions at now
 // that count towards a stall, collisions, regularised, kicks (with a thermostat), next id, retired
-// runs (count, then first and last of each), bodies (count, then each in the order of ids). No
-// event, box, list or slot is written: predictions are functions of the motions and are made anew.
+// runs (count, then first and last of each), bodies and zones (count, then each in the order of
+// ids; the word of a disk's type counts its passages, too), and the number of zone events if there
+// have been any. No event, box, list or slot is written: predictions are functions of the motions
+// and are made anew.
 
 #include "basic_world.hpp"
 #include "bytes.hpp"
@@ -18,18 +20,24 @@ namespace stoss::engine {
 inline constexpr std::uint64_t kBytesMagic = 0x31444c525753534fU;
 /// Raised whenever the layout changes or the engine's results do.
 inline constexpr std::uint64_t kBytesFormat = 1;
+/// Of a body's word, for its type.
+inline constexpr int kTypeBits = 8;
 
 template <class S, class Laws>
 template <class Sink>
 void BasicWorld<S, Laws>::write_body(Sink& sink, Slot slot, const Effects& kind) const {
   const Body<S, Laws>& body = at(slot);
   sink.word(body.id);
-  sink.word(static_cast<std::uint64_t>(body.type));
+  sink.word(static_cast<std::uint64_t>(body.type) | (passage_count(slot) << kTypeBits));
   write_time(sink, body.motion.since);
   write_vector(sink, body.motion.position);
   write_vector(sink, body.motion.velocity);
   if (body.is_wall()) {
     write_vector(sink, shape(slot).edge);
+    return;
+  }
+  if (is_zone(slot)) {
+    write_scalar(sink, body.radius);
     return;
   }
   if constexpr (Laws::kGrows) {
@@ -40,6 +48,7 @@ void BasicWorld<S, Laws>::write_body(Sink& sink, Slot slot, const Effects& kind)
   }
   write_scalar(sink, body.mass);
   write_body_part(sink, slot, kind);
+  write_passages(sink, slot);
 }
 
 template <class S, class Laws>
@@ -67,6 +76,7 @@ std::vector<std::byte> BasicWorld<S, Laws>::bytes_for(const Effects& kind) const
   }
   sink.word(slots_.size());
   for (const Slot slot : ordered_slots()) write_body(sink, slot, kind);
+  if (counters_.zone_events > 0) sink.word(counters_.zone_events);
   return sink.take();
 }
 
@@ -91,6 +101,7 @@ std::uint64_t BasicWorld<S, Laws>::state_hash() const {
   header.word(counters_.regularised);
   if (kind.thermostat) header.word(counters_.kicks);
   header.word(next_id_);
+  if (counters_.zone_events > 0) header.word(counters_.zone_events);
   for (const auto& [first, last] : ledger_.runs()) {
     header.word(first);
     header.word(last);
@@ -145,21 +156,10 @@ Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
     fresh.ledger_.restore_run(first, last);
     retired = last;
   }
-  const std::uint64_t body_count = source.word();
-  if (body_count > source.words_left()) return damaged("truncated");
-  Id previous = kNoId;
-  for (std::uint64_t i = 0; i < body_count; ++i) {
-    const Id id = source.word();
-    const std::uint64_t type = source.word();
-    if (id <= previous || type > static_cast<std::uint64_t>(BodyType::Wall) ||
-        fresh.ledger_.is_retired(id)) {
-      return damaged("the bodies are damaged");
-    }
-    previous = id;
-    fresh.read_body(source, id, static_cast<BodyType>(type));
-    if (!fresh.is_sound(fresh.slot_of(id))) return damaged("a body is damaged");
-  }
+  if (const char* const why = fresh.read_bodies(source)) return damaged(why);
+  if (source.words_left() > 0) fresh.counters_.zone_events = source.word();
   if (!source.at_end()) return damaged("truncated, or with bytes left over");
+  const Id previous = fresh.slots_.empty() ? kNoId : fresh.at(fresh.ordered_slots().back()).id;
   fresh.next_id_ = next_id;
   const std::vector<std::byte> again = fresh.serialise();
   if (previous >= next_id || !std::equal(bytes.begin(), bytes.end(), again.begin(), again.end())) {
@@ -167,6 +167,9 @@ Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
   }
   for (const Slot slot : fresh.ordered_slots()) {
     if (!fresh.has_sound_supports(slot)) return damaged("what a body rests on is damaged");
+    if (!fresh.has_sound_passages(slot)) {
+      return damaged("where a disk stands with zones is damaged");
+    }
   }
   fresh.settle();
   if (const Slot next = fresh.next_slot();
@@ -175,6 +178,30 @@ Outcome<Done> BasicWorld<S, Laws>::restore(std::span<const std::byte> bytes) {
   }
   *this = std::move(fresh);
   return Done{};
+}
+
+/// Null, or what is wrong with them.
+template <class S, class Laws>
+const char* BasicWorld<S, Laws>::read_bodies(ByteSource& source) {
+  constexpr BodyType kLastType = Laws::kPlain ? BodyType::Wall : BodyType::Zone;
+  const std::uint64_t count = source.word();
+  if (count > source.words_left()) return "truncated";
+  Id previous = kNoId;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Id id = source.word();
+    const std::uint64_t word = source.word();
+    const std::uint64_t type = word & ((std::uint64_t{1} << kTypeBits) - 1);
+    if (id <= previous || type > static_cast<std::uint64_t>(kLastType) || ledger_.is_retired(id)) {
+      return "the bodies are damaged";
+    }
+    previous = id;
+    read_body(source, id, static_cast<BodyType>(type));
+    if (!is_sound(slot_of(id))) return "a body is damaged";
+    if (!read_passages(source, slot_of(id), word >> kTypeBits)) {
+      return "where a disk stands with zones is damaged";
+    }
+  }
+  return nullptr;
 }
 
 template <class S, class Laws>
@@ -191,6 +218,10 @@ void BasicWorld<S, Laws>::read_body(ByteSource& source, Id id, BodyType type) {
     return;
   }
   body.radius = read_scalar<S>(source);
+  if (is_zone(slot)) {
+    ++zones_in_use_;
+    return;
+  }
   body.mass = read_scalar<S>(source);
   read_body_part(source, slot);
 }
@@ -214,13 +245,15 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
   }
   const bool moves = m.velocity.x.hi != S(0) || m.velocity.y.hi != S(0);
   if (body.type == BodyType::Static && moves) return false;
+  if (!(body.radius > S(0) && static_cast<double>(body.radius) <= detail::kLengthMax<S>)) {
+    return false;
+  }
+  if (is_zone(slot)) return !moves;
   if constexpr (Laws::kGrows) {
     if (!is_number(body.grown) || !(body.grown.hi > S(0))) return false;
   }
   const Rotation rotation = rotation_of(slot);
-  return has_sound_kicks(slot) && body.radius > S(0) &&
-         static_cast<double>(body.radius) <= detail::kLengthMax<S> &&
-         detail::is_usable_mass<S>(static_cast<double>(body.mass)) &&
+  return has_sound_kicks(slot) && detail::is_usable_mass<S>(static_cast<double>(body.mass)) &&
          std::isfinite(rotation.angle) && std::isfinite(rotation.spin);
 }
 
@@ -228,7 +261,7 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::settle() {
   for (const Slot slot : ordered_slots()) renew_law(slot);
-  for (const Slot slot : ordered_slots()) renew_box(slot, static_cast<double>(at(slot).radius));
+  for (const Slot slot : ordered_slots()) renew_box(slot, first_margin(slot));
   for (const Slot slot : ordered_slots()) {
     if (at(slot).is_wall()) link_vertices(slot);
   }

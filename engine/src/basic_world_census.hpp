@@ -88,6 +88,7 @@ Census BasicWorld<S, Laws>::census() const {
       if (entries[j].box.low_x > entries[i].box.high_x) break;
       if (!overlaps(entries[i].box, entries[j].box)) continue;
       if (!interacts(entries[i].slot, entries[j].slot)) continue;
+      if (is_zone(entries[i].slot) || is_zone(entries[j].slot)) continue;
       examine(entries[i].slot, entries[j].slot, {}, census);
     }
   }
@@ -120,7 +121,7 @@ Census BasicWorld<S, Laws>::census_of_images() const {
       return a.box.low_x != b.box.low_x ? a.box.low_x < b.box.low_x : a.slot < b.slot;
     });
     const auto examine_images = [&](const Entry& a, const Entry& b, std::int64_t x) {
-      if (!interacts(a.slot, b.slot)) return;
+      if (!interacts(a.slot, b.slot) || is_zone(a.slot) || is_zone(b.slot)) return;
       const auto in_y = detail::images_that_meet(
           a.box.low_y, a.box.high_y, b.box.low_y, b.box.high_y, space_.length_y);
       for (std::int64_t y = in_y.first; y <= in_y.last; ++y) {

@@ -115,6 +115,9 @@ std::optional<Reject> BasicWorld<S, Laws>::check_new_ids(const SpawnRequest& req
   for (std::size_t i = 0; i < request.walls.size(); ++i) {
     if (auto reject = check(request.walls[i].id, "walls", i)) return reject;
   }
+  for (std::size_t i = 0; i < request.zones.size(); ++i) {
+    if (auto reject = check(request.zones[i].id, "zones", i)) return reject;
+  }
   std::sort(asked.begin(), asked.end());
   const auto twin = std::adjacent_find(
       asked.begin(), asked.end(), [](const auto& x, const auto& y) { return x.first == y.first; });
@@ -134,6 +137,9 @@ Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request)
   for (std::size_t i = 0; i < request.walls.size(); ++i) {
     if (auto reject = check_wall(request.walls[i], i)) return *reject;
   }
+  for (std::size_t i = 0; i < request.zones.size(); ++i) {
+    if (auto reject = check_zone(request.zones[i], i)) return *reject;
+  }
   if (auto reject = check_new_ids(request)) return *reject;
 
   const Id next_id_before = next_id_;
@@ -146,6 +152,7 @@ Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request)
   };
   count(request.disks);
   count(request.walls);
+  count(request.zones);
   if (unnamed > std::numeric_limits<Id>::max() - next_id_) {
     next_id_ = next_id_before;
     return Reject{.code = Code::ResourceExhausted,
@@ -158,7 +165,8 @@ Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request)
     const Slot slot = place(spec);
     placed.push_back(slot);
     made.push_back(at(slot).id);
-    renew_box(slot, static_cast<double>(at(slot).radius));
+    renew_box(slot, first_margin(slot));
+    if (is_zone(slot)) return std::nullopt;
     auto overlap = overlap_of(slot, where);
     if (overlap) overlap = in_asked_ids(std::move(*overlap), request, made);
     return overlap;
@@ -170,6 +178,9 @@ Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request)
   for (std::size_t i = 0; i < request.walls.size() && !reject; ++i) {
     reject = admit(request.walls[i], {"walls", i});
   }
+  for (std::size_t i = 0; i < request.zones.size() && !reject; ++i) {
+    reject = admit(request.zones[i], {"zones", i});
+  }
   if (reject) {
     for (const Slot slot : placed) release(slot);
     next_id_ = next_id_before;
@@ -177,6 +188,7 @@ Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request)
   }
   for (const Slot slot : placed) {
     if (at(slot).is_wall()) link_vertices(slot);
+    find_who_is_inside(slot);
   }
   for (const Slot slot : placed) {
     enter(slot);
@@ -439,6 +451,7 @@ void BasicWorld<S, Laws>::release(Slot slot) {
     free_shapes_.push_back(at(slot).wall);
     --walls_in_use_;
   }
+  forget_passages(slot);
   queue_.erase(slot, id_lookup());
   std::vector<Slot> meeting;
   for_each_neighbour(slot, [&](Slot other) {
@@ -528,12 +541,14 @@ template <class S, class Laws>
 Outcome<Done> BasicWorld<S, Laws>::set_velocity(std::span<const VectorFor> velocities) {
   if (auto reject = check_targets(velocities, "velocities")) return *reject;
   for (std::size_t i = 0; i < velocities.size(); ++i) {
-    if (at(slot_of(velocities[i].id)).type != BodyType::Static) continue;
+    const Slot slot = slot_of(velocities[i].id);
+    if (at(slot).type != BodyType::Static && !is_zone(slot)) continue;
     return Reject{.code = Code::FailedPrecondition,
                   .field = detail::field_name("velocities", i, "id"),
                   .index = i,
                   .body = velocities[i].id,
-                  .reason = "a static disk has no velocity to set"};
+                  .reason = is_zone(slot) ? "a zone stays where it is"
+                                          : "a static disk has no velocity to set"};
   }
   std::vector<Slot> walls;
   std::vector<Slot> woken;

@@ -123,6 +123,10 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
     predict(slot, /*changed=*/false);
     return true;
   }
+  if (is_zone(event.partner)) {
+    process_crossing(slot, event, sink);
+    return true;
+  }
   const bool is_due = due && ((due->a == slot && due->b == event.partner) ||
                               (due->b == slot && due->a == event.partner));
   const std::optional<Contact> contact = is_due ? due : contact_of(slot, event.partner);
@@ -222,12 +226,15 @@ bool BasicWorld<S, Laws>::depends_on_order(Slot shared,
   return depends;
 }
 
-/// Is the next event of a disk a contact, with hardly a way to go?
+/// Is the next event of a disk, but for zones, a contact with hardly a way to go?
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_about_to_meet(Slot slot) const {
   const Event<S>& next = queue_.event_of(slot);
   const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
-  return next.partner >= 0 && hop(slot, now_, next.at) <= tiny;
+  if (next.partner < 0 || hop(slot, now_, next.at) > tiny) return false;
+  if (!is_zone(next.partner)) return true;
+  const Event<S> meeting = next_but_for_zones(slot);
+  return meeting.partner >= 0 && hop(slot, now_, meeting.at) <= tiny;
 }
 
 // Called after the contact is resolved and its bodies predicted: has one of them just come from
@@ -273,6 +280,7 @@ void BasicWorld<S, Laws>::rebase(Slot slot, const Time<S>& instant) {
   body.motion.position = position;
   body.motion.since = instant;
   ++body.changes;
+  begin_motion(slot, instant);
   note_digest_stale(slot);
   note_change(slot, ChangeKind::Moved);
 }

@@ -73,6 +73,7 @@ template <class S, class Laws>
 template <class Visit>
 void BasicWorld<S, Laws>::for_each_neighbour_image(Slot slot, Visit&& visit) const {
   for_each_neighbour(slot, [&](Slot other) {
+    if (is_zone(other)) return;  // it is met by nobody
     for_each_image(slot, other, [&](const Which& image) { visit(other, image); });
   });
 }
@@ -311,6 +312,33 @@ std::optional<Reject> BasicWorld<S, Laws>::check_room([[maybe_unused]] const Wal
   return std::nullopt;
 }
 
+template <class S, class Laws>
+std::optional<Reject> BasicWorld<S, Laws>::check_room([[maybe_unused]] const ZoneSpec& spec,
+                                                      [[maybe_unused]] std::size_t i) const {
+  if constexpr (!Laws::kPlain) {
+    if (!is_periodic()) return std::nullopt;
+    if (!(2 * spec.radius < space_.smallest())) {
+      return detail::invalid("zones",
+                             i,
+                             "radius",
+                             spec.id,
+                             "must be below half the period: the zone would meet its own image");
+    }
+    if (space_.is_beyond(spec.center, kPeriodsMax<S> / 2)) {
+      return detail::invalid(
+          "zones", i, "center", spec.id, "is too many periods away from the origin");
+    }
+  }
+  return std::nullopt;
+}
+
+/// Could a body see this image?
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_near(const Image& k) {
+  const auto farthest = static_cast<std::int64_t>(2 * kPeriodsMax<S>);
+  return k.x <= farthest && k.x >= -farthest && k.y <= farthest && k.y >= -farthest;
+}
+
 /// Could a body with such numbers have come of commands that were taken?
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_in_bounds([[maybe_unused]] Slot slot) const {
@@ -321,10 +349,6 @@ bool BasicWorld<S, Laws>::is_in_bounds([[maybe_unused]] Slot slot) const {
     if (space_.is_beyond(detail::rounded(body.motion.position), kPeriodsMax<S>)) return false;
     if (space_.is_beyond(detail::rounded(position_of(slot, now_)), kPeriodsMax<S>)) return false;
     if (!detail::within(detail::rounded(body.motion.velocity), kFaster * speed_max())) return false;
-    const auto is_near = [](const Image& k) {
-      const auto farthest = static_cast<std::int64_t>(2 * kPeriodsMax<S>);
-      return k.x <= farthest && k.x >= -farthest && k.y <= farthest && k.y >= -farthest;
-    };
     const RestImages images = rest_images(slot);
     if (!is_near(images.support) || !is_near(images.second_support) || !is_near(images.slid_off)) {
       return false;
@@ -403,6 +427,7 @@ std::optional<RayHit> BasicWorld<S, Laws>::ray_among_images(
       const Vector2 high = from.cwiseMax(to);
       std::optional<RayHit> first;
       for (const Slot slot : ordered_slots()) {
+        if (is_zone(slot)) continue;
         const Aabb box = grown({low.x(), low.y(), high.x(), high.y()}, 0);
         space_.for_each_meeting(box, {}, shown_box(slot), {}, [&](const Image& k) {
           const auto hit = ray_meets(slot, from - space_.way(k), unit);

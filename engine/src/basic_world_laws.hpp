@@ -68,12 +68,12 @@ DoubleWord2<S> BasicWorld<S, Laws>::pull_towards([[maybe_unused]] Slot support) 
   }
 }
 
-/// Of a disk at an instant before or after its last event; 0 for a wall.
+/// Of a disk at an instant before or after its last event; 0 for a wall, a zone's own.
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::radius_of(Slot slot, [[maybe_unused]] const Time<S>& instant) const
     -> Radius {
   if constexpr (Laws::kGrows) {
-    if (at(slot).is_wall()) return {};
+    if (!at(slot).is_disk()) return {at(slot).radius, S(0)};
     return grown_by(at(slot).grown, laws_.growth, at(slot).motion.since, instant);
   } else {
     return at(slot).radius;
@@ -94,7 +94,7 @@ double BasicWorld<S, Laws>::radius_now(Slot slot) const {
 template <class S, class Laws>
 double BasicWorld<S, Laws>::growth_of([[maybe_unused]] Slot slot) const {
   if constexpr (Laws::kGrows) {
-    return at(slot).is_wall() ? 0.0 : static_cast<double>(laws_.growth);
+    return at(slot).is_disk() ? static_cast<double>(laws_.growth) : 0.0;
   } else {
     return 0;
   }
@@ -255,6 +255,7 @@ void BasicWorld<S, Laws>::process_own_event(Slot slot, const Time<S>& instant) {
   body.motion.velocity = {};
   body.motion.since = instant;
   ++body.changes;
+  begin_motion(slot, instant);
   note_digest_stale(slot);
   note_change(slot, ChangeKind::Moved);
   renew_law(slot);

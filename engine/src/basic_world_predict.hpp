@@ -22,6 +22,7 @@ auto BasicWorld<S, Laws>::id_lookup() const {
 
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::interacts(Slot a, Slot b) const {
+  if (is_zone(a) || is_zone(b)) return is_zone_and_disk(a, b);
   return a != b && (at(a).is_dynamic() || at(b).is_dynamic());
 }
 
@@ -58,6 +59,7 @@ template <class S, class Laws>
 bool BasicWorld<S, Laws>::holds_prediction(Slot holder, Slot other) const {
   const Body<S, Laws>& h = at(holder);
   const Body<S, Laws>& o = at(other);
+  if (is_zone(holder) || is_zone(other)) return is_zone(other);
   if (h.is_dynamic() != o.is_dynamic()) return h.is_dynamic();
   return !(h.radius > S(kHolderRatioMax) * o.radius);
 }
@@ -217,6 +219,7 @@ auto BasicWorld<S, Laws>::contact_with(Slot a, Slot b, const Which& image) const
 
 template <class S, class Laws>
 std::optional<Event<S>> BasicWorld<S, Laws>::event_with(Slot holder, Slot partner) const {
+  if (is_zone(partner)) return zone_event_of(holder, partner);
   const std::optional<Contact> contact = contact_of(holder, partner);
   if (!contact) return std::nullopt;
   return event_of(*contact, partner);
@@ -303,6 +306,9 @@ bool BasicWorld<S, Laws>::may_meet_at(
     bend = horizon * (growth_of(slot) + growth_of(other)) * (1 + kScreenSlack<S>);
     if (!(bend < std::numeric_limits<double>::infinity())) return true;
   }
+  if (is_zone(slot) || is_zone(other)) {
+    return may_cross(slot, here, other, there, horizon, bend);
+  }
   if (own.is_wall() || theirs.is_wall()) {
     const DoubleWord2<S>& edge = own.is_wall() ? shape(slot).edge : shape(other).edge;
     const auto radius = radius_now(own.is_wall() ? other : slot) + bend;
@@ -386,7 +392,8 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
       for (const Slot other : neighbours_.of(slot)) look_at(other);
     } else {
       for_each_neighbour(slot, [&](Slot other) {
-        if (changed) look_at_unlike(slot, other, changed, now, renewal, ahead);
+        const bool holds = is_zone(other);  // a kinematic disk: its crossings
+        if (changed || holds) look_at_unlike(slot, other, changed, now, renewal, ahead);
       });
     }
     neighbours_.note_work(slot);
@@ -402,13 +409,13 @@ void BasicWorld<S, Laws>::prefetch_sights([[maybe_unused]] Slot slot) const {
   }
 }
 
-// A neighbour that is a wall, fixed, or a much smaller disk, which holds the pair itself.
+// A neighbour that is a wall, a zone, fixed, or a much smaller disk, which holds the pair itself.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::look_at_unlike(
     Slot slot, Slot other, bool changed, double now, double renewal, Foresight& ahead) {
   const bool is_held = holds_prediction(slot, other);
   if (!is_held && !changed) return;
-  if (!at(slot).is_wall() && !at(other).is_wall()) {
+  if (at(slot).is_disk() && at(other).is_disk()) {
     const double soonest = soonest_contact(
         sights_.of_slot[index(slot)], sights_.of_slot[index(other)], now, kScreenSlack<S>);
     return is_held ? ahead.note(other, soonest) : offer(other, slot, soonest);
@@ -569,11 +576,17 @@ double BasicWorld<S, Laws>::smallest_margin(Slot slot) const {
   return std::max(speed * kShortestCrossing, static_cast<double>(at(slot).radius) * kPartOfRadius);
 }
 
+/// Of a body that comes in. A zone's box is never renewed, and needs no room to move.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::first_margin(Slot slot) const {
+  return is_zone(slot) ? 0 : static_cast<double>(at(slot).radius);
+}
+
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
-  const Role role = at(slot).is_wall()      ? Role::Wall
-                    : at(slot).is_dynamic() ? Role::DynamicDisk
-                                            : Role::FixedDisk;
+  const Role role = at(slot).is_dynamic() ? Role::DynamicDisk
+                    : at(slot).is_disk()  ? Role::FixedDisk
+                                          : Role::Wall;  // zones are as large
   if constexpr (Laws::kGrows) at(slot).boxed_radius = radius_now(slot);
   if constexpr (!Laws::kPlain) {
     if (is_periodic()) {

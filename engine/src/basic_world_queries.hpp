@@ -64,7 +64,7 @@ WallState BasicWorld<S, Laws>::wall_of(Slot slot) const {
 template <class S, class Laws>
 Outcome<BodyState> BasicWorld<S, Laws>::state(Id id) const {
   const auto found = slots_.find(id);
-  if (found == slots_.end() || at(found->second).is_wall()) return not_found(id);
+  if (found == slots_.end() || !at(found->second).is_disk()) return not_found(id);
   return state_of(found->second);
 }
 
@@ -78,7 +78,7 @@ Outcome<WallState> BasicWorld<S, Laws>::wall(Id id) const {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::for_each_disk(const std::function<void(const BodyState&)>& visit) const {
   for (const Slot slot : ordered_slots()) {
-    if (!at(slot).is_wall()) visit(state_of(slot));
+    if (at(slot).is_disk()) visit(state_of(slot));
   }
 }
 
@@ -155,19 +155,19 @@ std::vector<Id> BasicWorld<S, Laws>::region(const Vector2& low, const Vector2& h
     if (is_periodic()) {
       const Aabb box = space_.in_one_cell(low, high);
       for (const Slot slot : ordered_slots()) {
-        if (some_image_touches(slot, box)) inside.push_back(at(slot).id);
+        if (!is_zone(slot) && some_image_touches(slot, box)) inside.push_back(at(slot).id);
       }
       return inside;
     }
   }
   if (all_pairs()) {
     for (const Slot slot : ordered_slots()) {
-      if (touches(slot, low, high)) inside.push_back(at(slot).id);
+      if (!is_zone(slot) && touches(slot, low, high)) inside.push_back(at(slot).id);
     }
     return inside;
   }
   neighbours_.query({low.x(), low.y(), high.x(), high.y()}, [&](Slot slot) {
-    if (touches(slot, low, high)) inside.push_back(at(slot).id);
+    if (!is_zone(slot) && touches(slot, low, high)) inside.push_back(at(slot).id);
   });
   std::sort(inside.begin(), inside.end());
   return inside;
@@ -188,6 +188,7 @@ std::vector<Near> BasicWorld<S, Laws>::nearest(const Vector2& point, std::size_t
   std::vector<Near> all;
   all.reserve(slots_.size());
   for (const Slot slot : ordered_slots()) {
+    if (is_zone(slot)) continue;
     all.push_back(
         {at(slot).id,
          is_periodic() ? distance_to_nearest_image(slot, point) : distance_to(slot, point)});
@@ -270,6 +271,7 @@ std::optional<RayHit> BasicWorld<S, Laws>::ray(const Vector2& origin,
   if (is_periodic()) return ray_among_images(origin, unit, length_max);
   std::optional<RayHit> first;
   for (const Slot slot : ordered_slots()) {
+    if (is_zone(slot)) continue;
     const auto hit = ray_meets(slot, origin, unit);
     if (hit && hit->distance <= length_max && (!first || hit->distance < first->distance)) {
       first = hit;
@@ -281,7 +283,7 @@ std::optional<RayHit> BasicWorld<S, Laws>::ray(const Vector2& origin,
 template <class S, class Laws>
 Outcome<MotionRecord> BasicWorld<S, Laws>::motion(Id id) const {
   const auto found = slots_.find(id);
-  if (found == slots_.end()) return not_found(id);
+  if (found == slots_.end() || is_zone(found->second)) return not_found(id);
   MotionRecord record = to_record(id, at(found->second).motion);
   const Rotation rotation = rotation_of(found->second);
   record.angle = rotation.angle;
@@ -306,7 +308,7 @@ Outcome<MotionRecord> BasicWorld<S, Laws>::motion(Id id) const {
 template <class S, class Laws>
 Outcome<BodyRecord> BasicWorld<S, Laws>::body(Id id) const {
   const auto found = slots_.find(id);
-  if (found == slots_.end()) return not_found(id);
+  if (found == slots_.end() || is_zone(found->second)) return not_found(id);
   const Body<S, Laws>& b = at(found->second);
   BodyRecord record;
   record.id = id;
@@ -326,7 +328,9 @@ template <class S, class Laws>
 std::vector<Id> BasicWorld<S, Laws>::ids() const {
   std::vector<Id> result;
   result.reserve(slots_.size());
-  for (const Slot slot : ordered_slots()) result.push_back(at(slot).id);
+  for (const Slot slot : ordered_slots()) {
+    if (!is_zone(slot)) result.push_back(at(slot).id);
+  }
   return result;
 }
 

@@ -33,7 +33,7 @@ inline double growth_of(const Effects& effects) {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::law_differs(Slot slot, const Effects& wanted) const {
   const Effects present = effects();
-  if (detail::growth_of(present) != detail::growth_of(wanted)) return !at(slot).is_wall();
+  if (detail::growth_of(present) != detail::growth_of(wanted)) return at(slot).is_disk();
   if (!at(slot).is_dynamic()) return false;
   if (detail::drag_of(present) != detail::drag_of(wanted)) return true;
   if (detail::gravity_of(present) != detail::gravity_of(wanted)) return true;

@@ -15,7 +15,7 @@ namespace stoss::engine {
 /// Where a body is held; says nothing about ids, may be used again after a removal.
 using Slot = std::int32_t;
 
-enum class BodyType : std::uint8_t { Dynamic = 0, Kinematic = 1, Static = 2, Wall = 3 };
+enum class BodyType : std::uint8_t { Dynamic = 0, Kinematic = 1, Static = 2, Wall = 3, Zone = 4 };
 
 inline BodyType type_of(BodyKind kind) { return static_cast<BodyType>(kind); }
 inline BodyKind kind_of(BodyType type) { return static_cast<BodyKind>(type); }
@@ -32,6 +32,7 @@ struct Body : Laws::template BodyPart<S> {
   std::int32_t wall = -1;  ///< index of the wall's shape
 
   bool is_wall() const { return type == BodyType::Wall; }
+  bool is_disk() const { return type <= BodyType::Static; }
   bool is_dynamic() const { return type == BodyType::Dynamic; }
 };
 

@@ -64,6 +64,8 @@ inline void read_number(ByteSource& source, Vector2& v) {
 
 inline constexpr int kFirstEffectBit = 8;
 inline constexpr std::uint64_t kEffectBits = 0b1111'1111;
+/// Of a world that takes zones; the effects keep the bits below.
+inline constexpr int kZonesBit = kFirstEffectBit + 16;
 inline constexpr std::uint64_t kPeriodBit = 1 << 7;  // like an effect, after them all
 
 }  // namespace detail
@@ -76,6 +78,7 @@ void write_identity(Sink& sink, const WorldIdentity& identity) {
   });
   const bool is_periodic = identity.period != Vector2::Zero();
   if (is_periodic) word |= detail::kPeriodBit << detail::kFirstEffectBit;
+  if (identity.effects.zones) word |= std::uint64_t{1} << detail::kZonesBit;
   sink.word(word);
   detail::for_each_effect(identity.effects, [&](int, const auto& effect, auto... number) {
     if (effect) (detail::write_number(sink, (*effect).*number), ...);
@@ -85,12 +88,15 @@ void write_identity(Sink& sink, const WorldIdentity& identity) {
 
 /// Nothing if the word is none that write_identity() writes, or the effects are impossible.
 inline std::optional<WorldIdentity> read_identity(ByteSource& source) {
-  const std::uint64_t word = source.word();
+  const std::uint64_t whole = source.word();
+  const bool zones = ((whole >> detail::kZonesBit) & 1) != 0;
+  const std::uint64_t word = whole ^ (std::uint64_t{zones} << detail::kZonesBit);
   const std::uint64_t arithmetic = word & ((std::uint64_t{1} << detail::kFirstEffectBit) - 1);
   const std::uint64_t mask = word >> detail::kFirstEffectBit;
   if (arithmetic > static_cast<std::uint64_t>(Arithmetic::Float128)) return std::nullopt;
   if ((mask & ~detail::kEffectBits) != 0) return std::nullopt;
   WorldIdentity identity{static_cast<Arithmetic>(arithmetic), {}, Vector2::Zero()};
+  identity.effects.zones = zones;
   detail::for_each_effect(identity.effects, [&](int bit, auto& effect, auto... number) {
     if (((mask >> bit) & 1) == 0) return;
     effect.emplace();

@@ -34,8 +34,9 @@ enum class EventKind : std::uint8_t {
   DiskDisk = 1,
   DiskWall = 2,
   DiskWallEnd = 3,
-  LawChange = 4,  ///< of one body by itself: its stop, or the end of its slide
-  Kick = 6,       ///< of one body by the thermostat
+  LawChange = 4,     ///< of one body by itself: its stop, or the end of its slide
+  ZoneCrossing = 5,  ///< of a zone's rim, by a disk's centre
+  Kick = 6,          ///< of one body by the thermostat
   /// Some contact, no earlier than this: a kernel is asked when it comes up. Before all others, so
   /// that it is known when its turn is.
   Guess = 255,

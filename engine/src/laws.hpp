@@ -11,11 +11,13 @@
 
 #include "contact_time/accelerated_disk_disk.hpp"
 #include "contact_time/accelerated_disk_wall.hpp"
+#include "contact_time/curved_rim_crossing.hpp"
 #include "contact_time/disk_disk.hpp"
 #include "contact_time/disk_wall.hpp"
 #include "contact_time/drag_curve.hpp"
 #include "contact_time/drag_face.hpp"
 #include "contact_time/growing.hpp"
+#include "contact_time/rim_crossing.hpp"
 
 #include <stoss/engine/effects.hpp>
 #include <stoss/engine/instant.hpp>
@@ -64,6 +66,13 @@ struct UniformMotion {
   static auto point_contact(const RelativeMotion<S>& motion, const S& radius, const S&) {
     return disk_point_contact<S>(motion, radius);
   }
+  template <class S>
+  static auto zone_crossing(const RelativeMotion<S>& motion,
+                            const S& radius,
+                            bool is_inside,
+                            const S&) {
+    return rim_crossing<S>(motion, radius, is_inside);
+  }
 };
 
 /// Contacts of bodies in uniformly accelerated motion, `within` so many seconds.
@@ -95,6 +104,13 @@ struct AcceleratedMotions {
   static auto point_contact(const AcceleratedMotion<S>& motion, const S& radius, const S& within) {
     return accelerated_point_contact<S>(motion, radius, within);
   }
+  template <class S>
+  static auto zone_crossing(const AcceleratedMotion<S>& motion,
+                            const S& radius,
+                            bool is_inside,
+                            const S& within) {
+    return accelerated_rim_crossing<S>(motion, radius, is_inside, within);
+  }
 };
 
 /// Contacts of bodies under linear drag, `within` so many seconds.
@@ -125,6 +141,13 @@ struct DraggedMotions {
   template <class S>
   static auto point_contact(const DragMotion<S>& motion, const S& radius, const S& within) {
     return drag_curve_contact<S>(motion, {radius, S(0)}, motion.rate, within);
+  }
+  template <class S>
+  static auto zone_crossing(const DragMotion<S>& motion,
+                            const S& radius,
+                            bool is_inside,
+                            const S& within) {
+    return drag_rim_crossing<S>(motion, radius, is_inside, within);
   }
 };
 
@@ -158,6 +181,13 @@ struct GrowingDisks {
                             const GrowingReach<S>& radius,
                             const S&) {
     return growing_disk_contact<S>(motion, radius);
+  }
+  template <class S>
+  static auto zone_crossing(const RelativeMotion<S>& motion,
+                            const S& radius,
+                            bool is_inside,
+                            const S&) {
+    return rim_crossing<S>(motion, radius, is_inside);
   }
 };
 

@@ -179,4 +179,20 @@ inline bool disk_may_meet_wall(const Glance& disk,
   return !(distance > horizon * std::max(closing, 0.0) * (1 + slack));
 }
 
+/// False if the disk's centre certainly crosses no rim of this radius within `horizon` seconds from
+/// now, be it inside or outside. `bend`: by how far it may leave its straight line, m.
+inline bool may_cross_rim(const Glance& disk,
+                          const Glance& zone,
+                          double radius,
+                          double horizon,
+                          double bend,
+                          double slack) {
+  const double px = (disk.x - zone.x) + (disk.x_low - zone.x_low);
+  const double py = (disk.y - zone.y) + (disk.y_low - zone.y_low);
+  const double off = disk.error + slack * (std::abs(px) + std::abs(py) + radius);
+  const double to_rim = std::abs(std::sqrt(px * px + py * py) - radius) - off;
+  const double speed = std::sqrt(disk.vx * disk.vx + disk.vy * disk.vy);
+  return !(to_rim > (horizon * speed + bend) * (1 + slack));
+}
+
 }  // namespace stoss::engine

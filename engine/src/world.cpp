@@ -41,10 +41,21 @@ Effects World::effects() const { return core_->effects(); }
 Vector2 World::period() const { return core_->period(); }
 std::size_t World::disk_count() const { return core_->disk_count(); }
 std::size_t World::wall_count() const { return core_->wall_count(); }
+std::size_t World::zone_count() const { return core_->zone_count(); }
 Counters World::counters() const { return core_->counters(); }
 Conserved World::conserved() const { return core_->conserved(); }
 
-Outcome<std::vector<Id>> World::spawn(const SpawnRequest& request) { return core_->spawn(request); }
+Outcome<std::vector<Id>> World::spawn(const SpawnRequest& request) {
+  if (request.zones.empty() || core_->effects() != Effects{}) return core_->spawn(request);
+  // A plain world knows no zones. The kind that does takes the bodies over bit for bit.
+  Effects with_zones;
+  with_zones.zones = true;
+  auto switched = core_->with_effects(with_zones);
+  if (!switched) return switched.reject();
+  auto made = switched.value()->spawn(request);
+  if (made) core_ = std::move(switched).value();
+  return made;
+}
 Outcome<Done> World::remove(std::span<const Id> ids) { return core_->remove(ids); }
 Outcome<Done> World::set_velocity(std::span<const VectorFor> velocities) {
   return core_->set_velocity(velocities);
@@ -54,8 +65,10 @@ Outcome<Done> World::apply_impulse(std::span<const VectorFor> impulses) {
 }
 Outcome<Done> World::set_effects(const Effects& effects) {
   if (auto reject = check_effects(effects)) return *std::move(reject);
-  if (effects == core_->effects()) return Done{};
-  auto switched = core_->with_effects(effects);
+  Effects wanted = effects;
+  wanted.zones = core_->zone_count() > 0;
+  if (wanted == core_->effects()) return Done{};
+  auto switched = core_->with_effects(wanted);
   if (!switched) return switched.reject();
   core_ = std::move(switched).value();
   return Done{};
@@ -76,6 +89,11 @@ void World::for_each_disk(const std::function<void(const BodyState&)>& visit) co
 void World::for_each_wall(const std::function<void(const WallState&)>& visit) const {
   core_->for_each_wall(visit);
 }
+Outcome<ZoneState> World::zone(Id id) const { return core_->zone(id); }
+void World::for_each_zone(const std::function<void(const ZoneState&)>& visit) const {
+  core_->for_each_zone(visit);
+}
+Outcome<std::vector<Id>> World::inside(Id zone) const { return core_->inside(zone); }
 std::vector<Id> World::region(const Vector2& low, const Vector2& high) const {
   return core_->region(low, high);
 }

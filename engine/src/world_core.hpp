@@ -28,6 +28,7 @@ class WorldCore {
   virtual Vector2 period() const = 0;
   virtual std::size_t disk_count() const = 0;
   virtual std::size_t wall_count() const = 0;
+  virtual std::size_t zone_count() const = 0;
   virtual Counters counters() const = 0;
   virtual Conserved conserved() const = 0;
 
@@ -45,6 +46,9 @@ class WorldCore {
   virtual Outcome<WallState> wall(Id id) const = 0;
   virtual void for_each_disk(const std::function<void(const BodyState&)>& visit) const = 0;
   virtual void for_each_wall(const std::function<void(const WallState&)>& visit) const = 0;
+  virtual Outcome<ZoneState> zone(Id id) const = 0;
+  virtual void for_each_zone(const std::function<void(const ZoneState&)>& visit) const = 0;
+  virtual Outcome<std::vector<Id>> inside(Id zone) const = 0;
   virtual std::vector<Id> region(const Vector2& low, const Vector2& high) const = 0;
   virtual std::vector<Near> nearest(const Vector2& point, std::size_t count) const = 0;
   virtual std::optional<RayHit> ray(const Vector2& origin,

@@ -140,6 +140,17 @@ void append_collision(std::string& out, const CollisionLine& collision) {
   object.flag("order_dependent", collision.order_dependent);
 }
 
+void append_zone_event(std::string& out, const ZoneEventLine& event) {
+  Object object(out);
+  object.integer("sequence", event.sequence);
+  object.instant("instant", event.seconds, event.fraction);
+  object.integer("zone", event.zone);
+  object.integer("body", event.body);
+  object.flag("entered", event.entered);
+  object.pair("position", event.position);
+  object.pair("velocity", event.velocity);
+}
+
 void append_body_state(std::string& out, const BodyStateLine& state) {
   Object object(out);
   object.integer("id", state.id);

@@ -148,26 +148,49 @@ class WorldContent final : public AnswerContent {
   std::uint64_t state_hash_;
 };
 
-class CollisionsContent final : public AnswerContent {
+// Events with numbers, from `first` on.
+template <class Columns, std::size_t kPerChunk, auto kBlock>
+class EventsContent final : public AnswerContent {
  public:
-  CollisionsContent(const CollisionPort& port, std::uint64_t first, std::uint64_t count)
-      : first_(first) {
+  template <class Port>
+  EventsContent(const Port& port, std::uint64_t first, std::uint64_t count) : first_(first) {
     for (std::uint64_t i = 0; i < count; ++i) columns_.append(port.at(first + i));
   }
   std::uint32_t chunks() const override {
     return static_cast<std::uint32_t>(
-        std::max<std::size_t>(chunks_for(columns_.size(), stoss_v1_MAX_COLLISIONS), 1));
+        std::max<std::size_t>(chunks_for(columns_.size(), kPerChunk), 1));
   }
   void fill(std::uint32_t chunk, wire::Answer& answer) override {
-    const Slice rows = slice(columns_.size(), chunk, stoss_v1_MAX_COLLISIONS);
-    columns_.lend(answer.collisions, rows.first, rows.count);
+    const Slice rows = slice(columns_.size(), chunk, kPerChunk);
+    columns_.lend(answer.*kBlock, rows.first, rows.count);
     answer.first_number = first_ + rows.first;
   }
 
  private:
-  translate::CollisionColumns columns_;
+  Columns columns_;
   std::uint64_t first_;
 };
+
+template <class Content, class Port>
+std::shared_ptr<AnswerContent> events_content(const std::string& what,
+                                              const Port& port,
+                                              std::uint64_t first,
+                                              std::uint64_t count) {
+  if (first == 0) {
+    return make_content(engine::Reject{.code = engine::Code::InvalidArgument,
+                                       .field = "number",
+                                       .reason = what + " are numbered from 1"});
+  }
+  if (first < port.oldest()) {
+    return make_content(engine::Reject{
+        .code = engine::Code::NotFound,
+        .field = "number",
+        .reason =
+            what + " before number " + std::to_string(port.oldest()) + " are no longer kept"});
+  }
+  const std::uint64_t there = first > port.number() ? 0 : port.number() - first + 1;
+  return std::make_shared<Content>(port, first, count == 0 ? there : std::min(count, there));
+}
 
 }  // namespace
 
@@ -207,21 +230,19 @@ std::shared_ptr<AnswerContent> world_content(const Picture& picture) {
 std::shared_ptr<AnswerContent> collisions_content(const CollisionPort& port,
                                                   std::uint64_t first,
                                                   std::uint64_t count) {
-  if (first == 0) {
-    return make_content(engine::Reject{.code = engine::Code::InvalidArgument,
-                                       .field = "number",
-                                       .reason = "collisions are numbered from 1"});
-  }
-  if (first < port.oldest()) {
-    return make_content(engine::Reject{
-        .code = engine::Code::NotFound,
-        .field = "number",
-        .reason =
-            "collisions before number " + std::to_string(port.oldest()) + " are no longer kept"});
-  }
-  const std::uint64_t there = first > port.number() ? 0 : port.number() - first + 1;
-  return std::make_shared<CollisionsContent>(
-      port, first, count == 0 ? there : std::min(count, there));
+  using Content = EventsContent<translate::CollisionColumns,
+                                stoss_v1_MAX_COLLISIONS,
+                                &wire::Answer::collisions>;
+  return events_content<Content>("collisions", port, first, count);
+}
+
+std::shared_ptr<AnswerContent> zone_events_content(const ZonePort& port,
+                                                   std::uint64_t first,
+                                                   std::uint64_t count) {
+  using Content = EventsContent<translate::ZoneEventColumns,
+                                stoss_v1_MAX_ZONE_EVENTS,
+                                &wire::Answer::zone_events>;
+  return events_content<Content>("zone events", port, first, count);
 }
 
 }  // namespace stoss::service

@@ -5,6 +5,7 @@
 #include "collision_port.hpp"
 #include "picture.hpp"
 #include "records.hpp"
+#include "zone_port.hpp"
 
 #include <stoss/translate/columns.hpp>
 
@@ -42,5 +43,10 @@ class AnswerContent {
 [[nodiscard]] std::shared_ptr<AnswerContent> collisions_content(const CollisionPort& port,
                                                                 std::uint64_t first,
                                                                 std::uint64_t count);
+
+/// Zone events, likewise.
+[[nodiscard]] std::shared_ptr<AnswerContent> zone_events_content(const ZonePort& port,
+                                                                 std::uint64_t first,
+                                                                 std::uint64_t count);
 
 }  // namespace stoss::service

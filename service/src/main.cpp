@@ -172,7 +172,9 @@ int run(int argc, char** argv) {
   }
   if (options.check_config) {
     std::cout << "world \"" << start.world << "\": " << start.bodies.disks.size() << " disks, "
-              << start.bodies.walls.size() << " walls; all is well\n";
+              << start.bodies.walls.size() << " walls";
+    if (!start.bodies.zones.empty()) std::cout << ", " << start.bodies.zones.size() << " zones";
+    std::cout << "; all is well\n";
     return kExitOk;
   }
   return serve(options, std::move(start), std::move(world).value());

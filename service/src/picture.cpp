@@ -14,6 +14,7 @@ void Picture::begin(const EpochRecord& record) {
   bodies_.reserve(record.bodies.size());
   index_.reserve(record.bodies.size());
   for (const BodyChange& body : record.bodies) put(body);
+  zones_ = record.zones;
   name(record.names);
   effects_ = record.effects;
   moment_ = record.moment;
@@ -29,13 +30,14 @@ void Picture::apply(const TickRecord& record) {
       put(change);
     }
   }
+  if (record.zones) set_zones(*record.zones);
   name(record.names);
   moment_ = record.moment;
   if (record.effects) {
     effects_ = *record.effects;
     ++scene_version_;
   }
-  if (!record.changes.empty() || record.effects) state_hash_ = record.state_hash;
+  if (record.changes_the_world()) state_hash_ = record.state_hash;
 }
 
 void Picture::put(const BodyChange& change) {
@@ -46,6 +48,19 @@ void Picture::put(const BodyChange& change) {
     bodies_[entry->second] = {change.motion, change.body};
   }
   if (is_new || change.body.is_wall) ++scene_version_;
+}
+
+void Picture::set_zones(const std::vector<engine::ZoneState>& zones) {
+  const std::vector<engine::ZoneState> before = std::exchange(zones_, zones);
+  for (const engine::ZoneState& zone : before) {
+    if (!has_zone(zone.id)) names_.erase(zone.id);
+  }
+  ++scene_version_;
+}
+
+bool Picture::has_zone(engine::Id id) const {
+  return std::any_of(
+      zones_.begin(), zones_.end(), [id](const engine::ZoneState& zone) { return zone.id == id; });
 }
 
 void Picture::remove(engine::Id id) {
@@ -64,7 +79,7 @@ void Picture::remove(engine::Id id) {
 
 void Picture::name(const std::vector<NamedBody>& names) {
   for (const auto& [id, text] : names) {
-    if (index_.contains(id)) names_[id] = text;
+    if (index_.contains(id) || has_zone(id)) names_[id] = text;
   }
 }
 

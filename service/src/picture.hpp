@@ -49,12 +49,17 @@ class Picture {
   [[nodiscard]] const Body* find(engine::Id id) const;
   [[nodiscard]] const std::unordered_map<engine::Id, std::string>& names() const { return names_; }
 
+  /// In the order of ids.
+  [[nodiscard]] const std::vector<engine::ZoneState>& zones() const { return zones_; }
+
   /// A disk at moment().at. REQUIRES: it is one.
   [[nodiscard]] engine::BodyState state_of(const Body& body) const;
   [[nodiscard]] engine::WallState wall_of(const Body& body) const;
 
  private:
   void put(const BodyChange& change);
+  void set_zones(const std::vector<engine::ZoneState>& zones);
+  [[nodiscard]] bool has_zone(engine::Id id) const;
   void remove(engine::Id id);
   void name(const std::vector<NamedBody>& names);
 
@@ -66,6 +71,7 @@ class Picture {
   std::vector<Body> bodies_;
   std::unordered_map<engine::Id, std::size_t> index_;
   std::unordered_map<engine::Id, std::string> names_;
+  std::vector<engine::ZoneState> zones_;
   std::vector<std::string> effects_;
 };
 

@@ -42,6 +42,7 @@ Publication::Publication(const dds::Participant& participant,
       publisher_(participant, idl::partition_of(options.world)),
       motions_(publisher_, topics, options.arithmetic, options.period),
       collisions_(publisher_, topics),
+      zones_(publisher_, topics),
       frames_(publisher_, topics),
       watched_(publisher_, topics),
       scene_(publisher_, topics, options.world),
@@ -75,12 +76,14 @@ void Publication::handle(TickRecord& record) {
   picture_.apply(record);
   motions_.publish(record);
   collisions_.publish(record);
+  zones_.publish(record);
 }
 
 void Publication::handle(EpochRecord& record) {
   picture_.begin(record);
   motions_.begin_epoch(record.moment, record.state_hash);
   collisions_.begin_epoch();
+  zones_.begin_epoch();
 }
 
 void Publication::handle(const WatchRecord& record) { watched_.assign(record, picture_); }
@@ -101,7 +104,7 @@ void Publication::handle(ReplyItem& item) {
 }
 
 AnswerHead Publication::head() const {
-  return {picture_.moment(), motions_.number(), collisions_.number()};
+  return {picture_.moment(), motions_.number(), collisions_.number(), zones_.number()};
 }
 
 void Publication::handle(AnswerItem& item) {
@@ -145,13 +148,14 @@ std::shared_ptr<AnswerContent> Publication::content_for(const translate::QuerySp
       return shared_world_content();
     case idl::Ask::kCollisions:
       return collisions_content(collisions_, query.number, query.count);
+    case idl::Ask::kZoneEvents:
+      return zone_events_content(zones_, query.number, query.count);
     case idl::Ask::kStatus:
       return make_content(status_);
     case idl::Ask::kStates:
     case idl::Ask::kRegion:
     case idl::Ask::kNearest:
     case idl::Ask::kRay:
-    case idl::Ask::kZoneEvents:
     case idl::Ask::kFeatures:
     case idl::Ask::kPredict:
     case idl::Ask::kForecast:

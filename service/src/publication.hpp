@@ -13,6 +13,7 @@
 #include "scene_port.hpp"
 #include "topics.hpp"
 #include "transfers.hpp"
+#include "zone_port.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -84,6 +85,7 @@ class Publication {
   dds::Publisher publisher_;
   MotionPort motions_;
   CollisionPort collisions_;
+  ZonePort zones_;
   FramePort frames_;
   BodyPort watched_;
   ScenePort scene_;
@@ -98,6 +100,7 @@ class Publication {
   wire::Status status_{};
   std::vector<wire::Counter> counters_;
   std::uint64_t collisions_lost_ = 0;
+  std::uint64_t zone_events_lost_ = 0;
   std::uint64_t records_put_off_ = 0;
   std::uint64_t frames_late_ = 0;
   std::uint64_t replies_failed_ = 0;

@@ -25,6 +25,7 @@ constexpr const char* kCompiler = "gcc " __VERSION__;
 
 void Publication::fill_status(const WorldStatus& status) {
   collisions_lost_ = status.collisions_lost;
+  zone_events_lost_ = status.zone_events_lost;
   records_put_off_ = status.records_put_off;
   idl::assign(status_.world, options_.world);
   status_.state = idl::wire_value(status.state);
@@ -43,6 +44,7 @@ void Publication::fill_status(const WorldStatus& status) {
   status_.speed_reached = status.speed_reached;
   status_.bodies = status.bodies;
   status_.walls = status.walls;
+  status_.zones = status.zones;
   status_.watched = status.watched;
   status_.collisions = status.collisions;
   status_.events = status.events;
@@ -54,6 +56,7 @@ void Publication::fill_status(const WorldStatus& status) {
   status_.state_hash = status.state_hash;
   status_.motion_number = motions_.number();
   status_.collision_number = collisions_.number();
+  status_.zone_number = zones_.number();
   status_.frame_count = frames_.count();
   status_.queue_full = shared_.queue_full.load(std::memory_order_relaxed);
   status_.ticks_late = status.ticks_late;
@@ -78,10 +81,10 @@ void Publication::fill_status(const WorldStatus& status) {
 }
 
 void Publication::add_counters() {
-  const std::uint64_t write_failures = motions_.failures() + collisions_.failures() +
-                                       frames_.failures() + watched_.failures() +
-                                       scene_.failures() + status_writer_.failures();
-  status_.dropped = write_failures + replies_failed_ + collisions_lost_ +
+  const std::uint64_t write_failures =
+      motions_.failures() + collisions_.failures() + zones_.failures() + frames_.failures() +
+      watched_.failures() + scene_.failures() + status_writer_.failures();
+  status_.dropped = write_failures + replies_failed_ + collisions_lost_ + zone_events_lost_ +
                     outbox_.refusals_dropped() + transfers_.abandoned();
   counters_.clear();
   const auto add = [this](const char* name, std::uint64_t value) {
@@ -94,6 +97,7 @@ void Publication::add_counters() {
   add("refusals_dropped", outbox_.refusals_dropped());
   add("answers_abandoned", transfers_.abandoned());
   add("collisions_lost", collisions_lost_);
+  add("zone_events_lost", zone_events_lost_);
   add("records_put_off", records_put_off_);
   add("frames_late", frames_late_);
   add("malformed", shared_.malformed.load(std::memory_order_relaxed));

@@ -181,6 +181,7 @@ std::vector<std::string> features(const engine::Effects& on) {
                         Ask::kRay,
                         Ask::kWorld,
                         Ask::kCollisions,
+                        Ask::kZoneEvents,
                         Ask::kFeatures,
                         Ask::kStatus,
                         Ask::kForecast}) {

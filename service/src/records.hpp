@@ -57,15 +57,22 @@ struct TickRecord {
   Moment moment;
   std::vector<BodyChange> changes;
   std::vector<engine::Collision> collisions;
+  std::vector<engine::ZoneEvent> zone_events;
+  std::optional<std::vector<engine::ZoneState>> zones;  ///< all there are, if one came or went
   std::vector<NamedBody> names;
   std::optional<std::vector<std::string>> effects;  ///< those that are on, if that has changed
   std::uint64_t state_hash = 0;                     ///< 0 when nobody asked for it
+
+  [[nodiscard]] bool changes_the_world() const {
+    return !changes.empty() || effects || zones || !zone_events.empty();
+  }
 };
 
 /// A world as it begins: at the start, and after a reset.
 struct EpochRecord {
   Moment moment;
   std::vector<BodyChange> bodies;
+  std::vector<engine::ZoneState> zones;
   std::vector<NamedBody> names;
   std::vector<std::string> effects;  ///< those that are on
   std::uint64_t state_hash = 0;
@@ -122,6 +129,7 @@ struct WorldStatus {
   double speed_reached = 0;
   std::uint64_t bodies = 0;
   std::uint64_t walls = 0;
+  std::uint64_t zones = 0;
   std::uint64_t watched = 0;
   std::uint64_t collisions = 0;
   std::uint64_t events = 0;
@@ -136,6 +144,7 @@ struct WorldStatus {
   std::uint64_t regularised = 0;
   std::uint64_t order_dependent = 0;
   std::uint64_t collisions_lost = 0;
+  std::uint64_t zone_events_lost = 0;
   std::uint64_t records_put_off = 0;
   std::uint64_t verify_period = 0;  ///< 0: the world is not verified
   engine::Verification verified{};

@@ -51,6 +51,12 @@ ScenePort::Columns ScenePort::columns_of(const Picture& picture) {
       columns.disk_mass.push_back(record.mass);
     }
   }
+  for (const engine::ZoneState& zone : picture.zones()) {
+    columns.zone_id.push_back(zone.id);
+    columns.zone_x.push_back(zone.center.x());
+    columns.zone_y.push_back(zone.center.y());
+    columns.zone_radius.push_back(zone.radius);
+  }
   const std::map<engine::Id, std::string> names(picture.names().begin(), picture.names().end());
   for (const auto& [id, text] : names) {
     wire::Name& name = columns.names.emplace_back();
@@ -69,6 +75,7 @@ void ScenePort::publish(const Picture& picture) {
   const std::size_t needed = std::max({std::size_t{1},
                                        chunks_for(columns.disk_id.size(), stoss_v1_MAX_SCENE_DISKS),
                                        chunks_for(columns.wall_id.size(), stoss_v1_MAX_SCENE_WALLS),
+                                       chunks_for(columns.zone_id.size(), stoss_v1_MAX_SCENE_ZONES),
                                        chunks_for(columns.names.size(), stoss_v1_MAX_SCENE_NAMES)});
   const auto chunks = static_cast<std::uint32_t>(needed);
   for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
@@ -117,6 +124,13 @@ void ScenePort::write_chunk(const Picture& picture,
   idl::lend(sample.wall_end_y, walls(columns.end_y));
   idl::lend(sample.wall_vx, walls(columns.vx));
   idl::lend(sample.wall_vy, walls(columns.vy));
+  const auto zones = [&](const auto& column) {
+    return slice(column, chunk, stoss_v1_MAX_SCENE_ZONES);
+  };
+  idl::lend(sample.zone_id, zones(columns.zone_id));
+  idl::lend(sample.zone_x, zones(columns.zone_x));
+  idl::lend(sample.zone_y, zones(columns.zone_y));
+  idl::lend(sample.zone_radius, zones(columns.zone_radius));
   idl::lend(sample.names, slice(columns.names, chunk, stoss_v1_MAX_SCENE_NAMES));
   static_cast<void>(writer_.write(sample));
 }

@@ -41,6 +41,8 @@ class ScenePort {
     std::vector<double> disk_radius, disk_mass;
     std::vector<std::uint64_t> wall_id;
     std::vector<double> start_x, start_y, end_x, end_y, vx, vy;
+    std::vector<std::uint64_t> zone_id;
+    std::vector<double> zone_x, zone_y, zone_radius;
     std::vector<wire::Name> names;
     std::vector<Word> effects;  ///< in every chunk
   };

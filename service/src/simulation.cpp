@@ -37,13 +37,7 @@ Simulation::Simulation(translate::SceneBodies scene,
       pacer_(options.tick_rate, options.speed),
       epoch_(options.epoch) {
   if (options.verify != 0) verifier_.emplace(options.verify);
-  std::vector<NamedBody> names;
-  for (std::size_t i = 0; i < world.ids.size(); ++i) {
-    const std::size_t disks = scene_.disk_names.size();
-    const std::string& name = i < disks ? scene_.disk_names[i] : scene_.wall_names[i - disks];
-    if (!name.empty()) names.emplace_back(world.ids[i], name);
-  }
-  begin_epoch(std::move(names));
+  begin_epoch(scene_names(world.ids));
   started();
 }
 

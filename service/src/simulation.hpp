@@ -50,6 +50,8 @@ inline constexpr std::size_t kTicksWaitingMax = 64;
 /// Collisions that may wait with them; beyond it they are dropped, and the gap in their numbers
 /// shows.
 inline constexpr std::size_t kCollisionsWaitingMax = 65'536;
+/// ... and zone events, likewise.
+inline constexpr std::size_t kZoneEventsWaitingMax = 65'536;
 /// How often the status is told when nothing changes.
 inline constexpr Nanoseconds kStatusInterval{1'000'000'000};
 
@@ -90,6 +92,7 @@ class Simulation final : private engine::CollisionSink {
   using Made = engine::Outcome<std::vector<engine::Id>>;
 
   void on_collision(const engine::Collision& collision) override;
+  void on_zone_event(const engine::ZoneEvent& event) override;
 
   // simulation.cpp: the turns
   Nanoseconds run_turn();
@@ -132,6 +135,8 @@ class Simulation final : private engine::CollisionSink {
   void begin_epoch(std::vector<NamedBody> names);
   [[nodiscard]] std::vector<std::string> effects_on() const;
   void publish(bool at_any_rate = false);
+  [[nodiscard]] std::vector<engine::ZoneState> zones() const;
+  [[nodiscard]] std::vector<NamedBody> scene_names(std::span<const engine::Id> ids) const;
   void send_replies();
   void report_status(idl::WorldState state);
   void report_status_if_due();
@@ -162,6 +167,8 @@ class Simulation final : private engine::CollisionSink {
   std::optional<Moment> published_;
   bool put_off_ = false;
   std::vector<engine::Collision> collisions_;
+  std::vector<engine::ZoneEvent> zone_events_;
+  bool zones_changed_ = false;  ///< one came or went since the last record
   std::vector<NamedBody> names_;
   bool effects_changed_ = false;                                  ///< since the last record
   std::unordered_map<engine::Id, engine::MotionRecord> removed_;  ///< where and when they went

@@ -108,16 +108,18 @@ Simulation::Made Simulation::change_bodies(std::span<const engine::Id> ids,
 }
 
 Simulation::Made Simulation::spawn(const translate::CommandSpec& spec) {
-  const std::size_t asked = spec.disks.size() + spec.walls.size();
+  const std::size_t asked = spec.disks.size() + spec.walls.size() + spec.zones.size();
   if (asked == 0) return invalid("disks", "there is no body to make");
-  if (world_.disk_count() + world_.wall_count() + asked > options_.bodies_max) {
+  if (world_.disk_count() + world_.wall_count() + world_.zone_count() + asked >
+      options_.bodies_max) {
     return Reject{
         .code = Code::ResourceExhausted,
         .field = "disks",
         .reason = "this world takes at most " + std::to_string(options_.bodies_max) + " bodies"};
   }
-  auto made = world_.spawn({spec.disks, spec.walls});
+  auto made = world_.spawn({spec.disks, spec.walls, spec.zones});
   if (!made) return made.reject();
+  if (!spec.zones.empty()) zones_changed_ = true;
   for (const translate::NamedPart& name : spec.names) {
     names_.emplace_back(made.value()[name.of], name.text);
   }
@@ -130,8 +132,10 @@ Simulation::Made Simulation::remove(const translate::CommandSpec& spec) {
   for (const engine::Id id : spec.ids) {
     if (auto motion = world_.motion(id)) last.push_back(std::move(motion).value());
   }
+  const std::size_t zones_before = world_.zone_count();
   auto outcome = world_.remove(spec.ids);
   if (!outcome) return outcome.reject();
+  if (world_.zone_count() != zones_before) zones_changed_ = true;
   for (engine::MotionRecord& motion : last) {
     const engine::Vector2 place = engine::evaluate(motion, world_.arithmetic(), world_.now());
     motion.angle = engine::turned(motion.angle, motion.spin, motion.since, world_.now());
@@ -188,12 +192,7 @@ Simulation::Made Simulation::reset() {
   auto fresh = translate::make_world(scene_, options_.choice);
   if (!fresh) return fresh.reject();
   publish(/*at_any_rate=*/true);
-  const std::size_t disks = scene_.disk_names.size();
-  std::vector<NamedBody> names;
-  for (std::size_t i = 0; i < fresh.value().ids.size(); ++i) {
-    const std::string& name = i < disks ? scene_.disk_names[i] : scene_.wall_names[i - disks];
-    if (!name.empty()) names.emplace_back(fresh.value().ids[i], name);
-  }
+  std::vector<NamedBody> names = scene_names(fresh.value().ids);
   world_ = std::move(fresh).value().world;
   if (failed()) run_.pause();
   failure_.clear();
@@ -233,7 +232,7 @@ Simulation::Made Simulation::set_effects(const translate::CommandSpec& spec) {
 Simulation::Made Simulation::watch(const translate::CommandSpec& spec) {
   if (spec.ids.empty()) return invalid("ids", "names no body");
   for (std::size_t i = 0; i < spec.ids.size(); ++i) {
-    if (world_.contains(spec.ids[i])) continue;
+    if (world_.body(spec.ids[i]).ok()) continue;  // a zone is none
     return Reject{.code = Code::NotFound,
                   .field = "ids",
                   .index = i,

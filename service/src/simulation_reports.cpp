@@ -45,13 +45,13 @@ bool answered_by_picture(Ask ask) {
     case Ask::kList:
     case Ask::kWorld:
     case Ask::kCollisions:
+    case Ask::kZoneEvents:
     case Ask::kStatus:
       return true;
     case Ask::kStates:
     case Ask::kRegion:
     case Ask::kNearest:
     case Ask::kRay:
-    case Ask::kZoneEvents:
     case Ask::kFeatures:
     case Ask::kPredict:
     case Ask::kForecast:
@@ -70,6 +70,30 @@ void Simulation::on_collision(const engine::Collision& collision) {
   if (collision.order_dependent) ++status_.order_dependent;
   if (verifier_) verifier_->on_collision(collision);
   collisions_.push_back(collision);
+}
+
+void Simulation::on_zone_event(const engine::ZoneEvent& event) {
+  if (zone_events_.size() >= kZoneEventsWaitingMax) {
+    status_.zone_events_lost += zone_events_.size();
+    zone_events_.clear();
+  }
+  zone_events_.push_back(event);
+}
+
+std::vector<engine::ZoneState> Simulation::zones() const {
+  std::vector<engine::ZoneState> all;
+  world_.for_each_zone([&all](const engine::ZoneState& zone) { all.push_back(zone); });
+  return all;
+}
+
+/// The names that the scene gives to what its world has given ids to.
+std::vector<NamedBody> Simulation::scene_names(std::span<const engine::Id> ids) const {
+  std::vector<NamedBody> names;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::string& name = scene_.name_of(i);
+    if (!name.empty()) names.emplace_back(ids[i], name);
+  }
+  return names;
 }
 
 void Simulation::answer_queries() {
@@ -165,11 +189,14 @@ void Simulation::begin_epoch(std::vector<NamedBody> names) {
     record.bodies.push_back(
         {engine::ChangeKind::Spawned, world_.motion(id).value(), world_.body(id).value()});
   }
+  record.zones = zones();
   record.state_hash = world_.state_hash();
   static_cast<void>(world_.drain_changes());  // from here on changes are kept
   published_ = record.moment;
   put_off_ = false;
   collisions_.clear();
+  zone_events_.clear();
+  zones_changed_ = false;
   names_.clear();
   removed_.clear();
   status_.events = 0;
@@ -208,7 +235,9 @@ void Simulation::publish(bool at_any_rate) {
   }
   removed_.clear();
   if (std::exchange(effects_changed_, false)) record.effects = effects_on();
-  const bool is_news = !record.changes.empty() || record.effects;
+  if (std::exchange(zones_changed_, false)) record.zones = zones();
+  record.zone_events = std::exchange(zone_events_, {});
+  const bool is_news = record.changes_the_world();
   if (!is_news && collisions_.empty() && published_ == record.moment) return;
   record.collisions = std::exchange(collisions_, {});
   record.names = std::exchange(names_, {});
@@ -257,6 +286,7 @@ void Simulation::report_status(idl::WorldState state) {
   status_.speed_asked = pacer_.speed();
   status_.bodies = world_.disk_count();
   status_.walls = world_.wall_count();
+  status_.zones = world_.zone_count();
   status_.watched = watches_.size();
   status_.collisions = counters.collisions;
   status_.regularised = counters.regularised;

@@ -20,6 +20,7 @@ struct Topics {
         frame(idl::make_topic(participant, idl::kFrameTopic)),
         body(idl::make_topic(participant, idl::kBodyTopic)),
         collision(idl::make_topic(participant, idl::kCollisionTopic)),
+        zone(idl::make_topic(participant, idl::kZoneTopic)),
         scene(idl::make_topic(participant, idl::kSceneTopic)),
         status(idl::make_topic(participant, idl::kStatusTopic)) {}
 
@@ -31,6 +32,7 @@ struct Topics {
   dds::Topic<wire::FrameChunk> frame;
   dds::Topic<wire::BodyState> body;
   dds::Topic<wire::CollisionBatch> collision;
+  dds::Topic<wire::ZoneBatch> zone;
   dds::Topic<wire::SceneChunk> scene;
   dds::Topic<wire::Status> status;
 };

@@ -62,6 +62,7 @@ bool Transfers::write_chunk(Transfer& transfer, Mailbox& mailbox) {
   answer.tick = transfer.head.moment.tick;
   answer.motion_number = transfer.head.motion_number;
   answer.collision_number = transfer.head.collision_number;
+  answer.zone_number = transfer.head.zone_number;
   transfer.content->fill(transfer.next, answer);
   return mailbox.answer.write(answer);
 }

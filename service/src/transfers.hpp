@@ -29,6 +29,7 @@ struct AnswerHead {
   Moment moment;
   std::uint64_t motion_number = 0;
   std::uint64_t collision_number = 0;
+  std::uint64_t zone_number = 0;
 };
 
 class Transfers {

@@ -15,10 +15,10 @@ namespace stoss::tests {
 namespace {
 
 const std::vector<std::string> kVerbs = {
-    "worlds", "status",   "spawn",    "load",     "remove", "set-velocity", "impulse",
-    "get",    "list",     "region",   "nearest",  "ray",    "pause",        "resume",
-    "reset",  "step",     "run-for",  "run-to",   "speed",  "states",       "collisions",
-    "top",    "simulate", "accuracy", "features", "effects"};
+    "worlds", "status", "spawn",    "load",     "remove",   "set-velocity", "impulse",
+    "get",    "list",   "region",   "nearest",  "ray",      "pause",        "resume",
+    "reset",  "step",   "run-for",  "run-to",   "speed",    "states",       "collisions",
+    "zones",  "top",    "simulate", "accuracy", "features", "effects"};
 
 TEST(CliUsage, HelpListsEveryVerb) {
   const Finished help = stoss({"--help"});
@@ -34,7 +34,7 @@ TEST(CliUsage, EveryVerbHasHelpWithAnExample) {
     EXPECT_EQ(help.status, 0) << verb;
     EXPECT_NE(help.out.find("Example: stoss " + verb), std::string::npos) << help.out;
   }
-  for (const char* what : {"disk", "wall"}) {
+  for (const char* what : {"disk", "wall", "zone"}) {
     const Finished help = stoss({"spawn", what, "--help"});
     EXPECT_EQ(help.status, 0);
     EXPECT_NE(help.out.find("Example: stoss spawn " + std::string(what)), std::string::npos);

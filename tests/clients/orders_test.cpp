@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Putting samples in order: collisions without gaps, frames in whole, answers out of chunks.
 
-#include "collision_order.hpp"
+#include "event_order.hpp"
 #include "frame_order.hpp"
 #include "pending.hpp"
 

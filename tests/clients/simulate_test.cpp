@@ -12,7 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <scene.pb.h>
 
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -60,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes,
                          testing::Values(Case{"tutorial", "3"},
                                          Case{"newtons-cradle", "10"},
                                          Case{"pool-break", "4"},
+                                         Case{"billiards", "3"},
                                          Case{"bullets", "0.01"},
                                          Case{"pi-0", "100"},
                                          Case{"pi-1", "100"},
@@ -74,6 +77,39 @@ INSTANTIATE_TEST_SUITE_P(Scenes,
                            }
                            return name;
                          });
+
+// A zone for a pocket: a ball that is in one has entered it once more than it has left it.
+TEST(Simulate, BilliardsTellWhichBallsAreInThePockets) {
+  const Finished run = simulate("billiards", "--until 60 --zones -");
+  ASSERT_EQ(run.status, 0) << run.error;
+  std::uint64_t sequence = 0;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, int> inside;
+  for (const std::string& line : lines_of(run.out)) {
+    ZoneEvent event;
+    ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(line, &event).ok()) << line;
+    EXPECT_EQ(event.sequence(), ++sequence);
+    int& count = inside[{event.zone(), event.body()}];
+    count += event.entered() ? 1 : -1;
+    EXPECT_TRUE(count == 0 || count == 1) << line;
+  }
+  EXPECT_GT(sequence, 4U);
+  EXPECT_EQ(simulate("billiards", "--until 60 --zones - --tick-rate 60").out, run.out);
+  EXPECT_EQ(simulate("billiards", "--until 60 --zones - --broad-phase all-pairs").out, run.out);
+  // By then every ball lies still, and all are on the table or in a pocket.
+  const Finished states = simulate("billiards", "--until 60 --states -");
+  for (const std::string& line : lines_of(states.out)) {
+    BodyState state;
+    ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(line, &state).ok()) << line;
+    EXPECT_EQ(state.velocity().x(), 0) << line;
+    EXPECT_EQ(state.velocity().y(), 0) << line;
+    EXPECT_LT(std::abs(state.position().x() - 1.27), 1.27 + 0.09) << line;
+    EXPECT_LT(std::abs(state.position().y() - 0.635), 0.635 + 0.09) << line;
+  }
+  const Finished stepped =
+      simulate("billiards", "--until 1 --method fixed-step --step 0.001 --states -");
+  EXPECT_EQ(stepped.status, 1);
+  EXPECT_NE(stepped.error.find("zones"), std::string::npos) << stepped.error;
+}
 
 TEST(Simulate, CountsTheDigitsOfPi) {
   const std::vector<std::string> digits = {"3", "31", "314", "3141", "31415"};

@@ -63,6 +63,19 @@ BodyState message_of(const idl::BodyStateLine& line) {
   return out;
 }
 
+ZoneEvent message_of(const idl::ZoneEventLine& line) {
+  ZoneEvent out;
+  out.set_sequence(line.sequence);
+  out.mutable_instant()->set_seconds(line.seconds);
+  out.mutable_instant()->set_fraction(line.fraction);
+  out.set_zone(line.zone);
+  out.set_body(line.body);
+  out.set_entered(line.entered);
+  set(out.mutable_position(), line.position);
+  set(out.mutable_velocity(), line.velocity);
+  return out;
+}
+
 template <class Message>
 Message parsed(const std::string& json) {
   Message out;
@@ -82,6 +95,12 @@ void check(const idl::CollisionLine& line) {
   std::string json;
   idl::append_collision(json, line);
   expect_same(parsed<Collision>(json), message_of(line), json);
+}
+
+void check(const idl::ZoneEventLine& line) {
+  std::string json;
+  idl::append_zone_event(json, line);
+  expect_same(parsed<ZoneEvent>(json), message_of(line), json);
 }
 
 void check(const idl::BodyStateLine& line) {
@@ -132,6 +151,25 @@ TEST(JsonLines, EveryFieldHasItsNameAndForm) {
             R"("velocity_a":{"x":5e-324,"y":2},"velocity_b":{},"spin_b":-0.5,)"
             R"("regularised":true,"order_dependent":true})");
   check(line);
+}
+
+TEST(JsonLines, ZoneEventsHaveTheirNamesAndForms) {
+  const idl::ZoneEventLine line{.sequence = 3,
+                                .seconds = 1,
+                                .fraction = 5,
+                                .zone = 9,
+                                .body = UINT64_MAX,
+                                .entered = true,
+                                .position = {0.1, -0.0},
+                                .velocity = {-2, 1e-300}};
+  std::string json;
+  idl::append_zone_event(json, line);
+  EXPECT_EQ(json,
+            R"({"sequence":"3","instant":{"seconds":"1","fraction":"5"},"zone":"9",)"
+            R"("body":"18446744073709551615","entered":true,"position":{"x":0.1,"y":-0.0},)"
+            R"("velocity":{"x":-2,"y":1e-300}})");
+  check(line);
+  check(idl::ZoneEventLine{});
 }
 
 TEST(JsonLines, HardValuesReadBackToTheSameBits) {

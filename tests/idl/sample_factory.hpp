@@ -110,7 +110,7 @@ class SampleFactory {
              b.spin_b);
   }
   void zone_events(idl::wire::ZoneEventBlock& b, std::size_t n = stoss_v1_MAX_ZONE_EVENTS) {
-    fill_all(n, b.seconds, b.fraction, b.zone, b.body, b.entered);
+    fill_all(n, b.seconds, b.fraction, b.zone, b.body, b.entered, b.x, b.y, b.vx, b.vy);
   }
   void hits(idl::wire::HitBlock& b, std::size_t n = stoss_v1_MAX_HITS) {
     fill_all(n, b.id, b.distance, b.x, b.y, b.normal_x, b.normal_y);

@@ -83,6 +83,30 @@ TEST_F(ClientCli, BodiesComeChangeAndGo) {
   EXPECT_EQ(good_json("list --walls").size(), 1U);
 }
 
+TEST_F(ClientCli, ZonesReportWhoEntersAndLeaves) {
+  good("spawn disk --position 0,0 --radius 0.25 --velocity 2,0 --id 1");
+  EXPECT_EQ(good("spawn zone --center 3,0 --radius 1 --id 7 --name goal"), "7\n");
+  EXPECT_EQ(status()["zones"], 1);
+  EXPECT_EQ(good_json("list --walls").size(), 1U) << "a zone is no body";
+  refused("spawn zone --center 3,0 --radius -1", {"INVALID_ARGUMENT: ", "radius"});
+  refused("set-velocity 7 1 0", {"FAILED_PRECONDITION: ", "7"});
+  good("run-to 1.75");
+  const std::vector<json> events = good_json("zones --since 1 --count 1");
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0]["zone"], "7");
+  EXPECT_EQ(events[0]["body"], "1");
+  EXPECT_EQ(events[0]["entered"], true);
+  EXPECT_EQ(events[0]["instant"]["seconds"], "1");
+  EXPECT_EQ(events[0]["position"]["x"], 2);
+  good("run-to 5");
+  const std::vector<std::string> lines = lines_of(good("zones --since 1 --count 2"));
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[1], "#2  t 2  body 1 leaves zone 7  at 4,0  velocity 2,0");
+  EXPECT_EQ(status()["zone_number"], "2");
+  good("remove 7");
+  EXPECT_EQ(status()["zones"], 0);
+}
+
 TEST_F(ClientCli, RefusalsNameTheCodeTheFieldAndTheBodyAndChangeNothing) {
   good("spawn disk --position 0,0 --radius 1 --id 5");
   refused("spawn disk --position 1.5,0 --radius 1", {"OVERLAP: ", "5", "-0.5"});

@@ -4,10 +4,12 @@
 
 #include <stoss/client/discovery.hpp>
 #include <stoss/client/feeds.hpp>
+#include <stoss/client/replica.hpp>
 #include <stoss/client/session.hpp>
 
 #include <atomic>
 #include <future>
+#include <map>
 #include <set>
 #include <thread>
 #include <vector>
@@ -68,6 +70,47 @@ TEST(ClientSession, ManyCommandsMayBeUnderWayFromManyThreads) {
   const Result<Answer> list = session.ask(Query::list());
   ASSERT_TRUE(list.ok());
   EXPECT_EQ(list.value().bodies.size(), std::size_t{kThreads * kEach});
+}
+
+// The same disk comes by again and again; what the feed tells has no gaps, and the scene and the
+// replica have the zone.
+TEST(ClientSession, ZoneEventsComeInOrderWithoutGaps) {
+  Process daemon(stossd(kDomain, {"--world", "session", "--speed", "max", "--paused"}));
+  Session session(options("session"));
+  const Result<Reply> reply = session.command(
+      Command::spawn({{.position = {0, 0}, .velocity = {10, 3}, .radius = 0.5}},
+                     {{.start = {-9, -9}, .end = {9, -9}},
+                      {.start = {9, -9}, .end = {9, 9}},
+                      {.start = {9, 9}, .end = {-9, 9}},
+                      {.start = {-9, 9}, .end = {-9, -9}}},
+                     {{.center = {0, 0}, .radius = 4}, {.center = {5, 5}, .radius = 2}}));
+  ASSERT_TRUE(reply.ok()) << reply.failure().reject.reason;
+  ASSERT_EQ(reply.value().ids.size(), 7U);
+  const engine::Id first_zone = reply.value().ids[5];
+  ZoneFeed feed(session, 1);
+  ASSERT_TRUE(session.command(Command::run_for(1000)).ok());
+  std::vector<engine::ZoneEvent> events;
+  const auto end = steady_clock::now() + kPatience;
+  while (events.size() < 500 && steady_clock::now() < end) {
+    if (const auto run = feed.next(Milliseconds{100})) {
+      EXPECT_EQ(run->lost, 0U);
+      events.insert(events.end(), run->events.begin(), run->events.end());
+    }
+  }
+  ASSERT_GE(events.size(), 500U);
+  std::map<engine::Id, bool> inside{{first_zone, true}};
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    EXPECT_EQ(events[i].sequence, i + 1);
+    EXPECT_NE(inside[events[i].zone], events[i].entered);
+    inside[events[i].zone] = events[i].entered;
+  }
+  Replica replica(session);
+  ASSERT_TRUE(replica.wait_until_complete(kPatience));
+  std::vector<engine::ZoneState> zones;
+  while (zones.empty() && steady_clock::now() < end) zones = replica.zones();
+  ASSERT_EQ(zones.size(), 2U);
+  EXPECT_EQ(zones[0], (engine::ZoneState{first_zone, {0, 0}, 4}));
+  EXPECT_EQ(replica.disks().size(), 1U);
 }
 
 TEST(ClientSession, WhatIsTooLargeIsRefusedBeforeItIsSent) {

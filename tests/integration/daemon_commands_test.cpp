@@ -173,16 +173,20 @@ TEST_F(DaemonCommands, RefuseMalformedBlocks) {
     idl::lend(c.walls.end_x, kOne);
     idl::lend(c.walls.end_y, kOne);
   };
-  const auto zone = [](wire::Command& c) {
+  const auto short_zone = [](wire::Command& c) {
     idl::lend(c.zones.x, kOne);
     idl::lend(c.zones.y, kOne);
-    idl::lend(c.zones.radius, kOne);
+  };
+  const auto point_zone = [=](wire::Command& c) {
+    short_zone(c);
+    idl::lend(c.zones.radius, kZero);
   };
   refuses({
       {"arrays that differ", Op::kSpawn, short_disk, Code::InvalidArgument, "disks.radius"},
       {"unknown kind", Op::kSpawn, bad_kind, Code::InvalidArgument, "disks.kind"},
       {"wall of no length", Op::kSpawn, point_wall, Code::InvalidArgument, "walls.end"},
-      {"zones", Op::kSpawn, zone, Code::Unimplemented, "zones"},
+      {"zone arrays that differ", Op::kSpawn, short_zone, Code::InvalidArgument, "zones.radius"},
+      {"zone of no size", Op::kSpawn, point_zone, Code::InvalidArgument, "zones.radius"},
   });
 }
 

@@ -82,7 +82,7 @@ TEST_F(DaemonQueries, AreRefusedWithTheFieldAtFault) {
   EXPECT_EQ(code(Ask::kRay, [](wire::Query& q) { q.distance = 1; }), Code::InvalidArgument);
   EXPECT_EQ(code(Ask::kCollisions, {}), Code::InvalidArgument);
   EXPECT_EQ(code(Ask::kPredict, {}), Code::Unimplemented);
-  EXPECT_EQ(code(Ask::kZoneEvents, {}), Code::Unimplemented);
+  EXPECT_EQ(code(Ask::kZoneEvents, {}), Code::InvalidArgument);
   EXPECT_EQ(code(Ask{999}, {}), Code::Unimplemented);
   EXPECT_EQ(code(Ask::kList, [](wire::Query& q) { q.protocol = 7; }), Code::Unimplemented);
   const auto past = [](wire::Query& q) {

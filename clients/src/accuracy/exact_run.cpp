@@ -24,7 +24,7 @@ DoubleWord<double> to_word(const engine::SplitNumber& number) { return {number.h
 engine::Outcome<engine::World> exact_world(const translate::SceneBodies& bodies,
                                            engine::Arithmetic arithmetic) {
   engine::World world = wide::make_world({bodies.start, arithmetic, {}});
-  const auto spawned = world.spawn({bodies.disks, bodies.walls});
+  const auto spawned = world.spawn({bodies.disks, bodies.walls, bodies.zones});
   if (!spawned) return spawned.reject();
   return world;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// spawn disk, spawn wall, remove, set-velocity, impulse
+// spawn disk, spawn wall, spawn zone, remove, set-velocity, impulse
 
 #include "cli/common.hpp"
 #include "cli/load.hpp"
@@ -138,6 +138,39 @@ void add_spawn_wall(CLI::App& spawn, Invocation& invocation) {
   });
 }
 
+struct ZoneOptions : CommandOptions {
+  std::string center;
+  std::string radius;
+  std::string id = "0";
+  std::string name;
+};
+
+void spawn_zone(const GlobalOptions& global, const ZoneOptions& options) {
+  const engine::ZoneSpec zone{.id = count_of("--id", options.id),
+                              .center = vector_of("--center", options.center),
+                              .radius = number_of("--radius", options.radius)};
+  Command command = Command::spawn({}, {}, {zone});
+  command.names(name_of_first(options.name));
+  print_ids(send(global, std::move(command), options), global.json);
+}
+
+void add_spawn_zone(CLI::App& spawn, Invocation& invocation) {
+  auto options = std::make_shared<ZoneOptions>();
+  CLI::App* verb = add_verb(spawn,
+                            "zone",
+                            "Bring a zone into the world, which reports who enters and leaves, and "
+                            "print its id",
+                            "stoss spawn zone --center 2,0 --radius 0.5");
+  verb->add_option("--center", options->center, "X,Y [m]")->required();
+  verb->add_option("--radius", options->radius, "Above 0 [m]")->required();
+  verb->add_option("--id", options->id, "Its id; 0: the world assigns one")->capture_default_str();
+  verb->add_option("--name", options->name, "A name for people");
+  add_at(verb, *options);
+  verb->callback([&invocation, options] {
+    invocation.action = [&invocation, options] { spawn_zone(invocation.global, *options); };
+  });
+}
+
 struct IdsOptions : CommandOptions {
   std::vector<std::string> ids;
 };
@@ -146,7 +179,7 @@ void add_remove(CLI::App& app, Invocation& invocation) {
   auto options = std::make_shared<IdsOptions>();
   CLI::App* verb = add_verb(
       app, "remove", "Take bodies out of the world, all of them or none", "stoss remove 3 4 5");
-  verb->add_option("ID", options->ids, "Disks or walls")->required();
+  verb->add_option("ID", options->ids, "Disks, walls or zones")->required();
   add_at(verb, *options);
   verb->callback([&invocation, options] {
     invocation.action = [&global = invocation.global, options] {
@@ -207,6 +240,7 @@ void add_body_verbs(CLI::App& app, Invocation& invocation) {
   spawn->require_subcommand(1);
   add_spawn_disk(*spawn, invocation);
   add_spawn_wall(*spawn, invocation);
+  add_spawn_zone(*spawn, invocation);
   add_load(app, invocation);
   add_remove(app, invocation);
   add_vector_verb(app,

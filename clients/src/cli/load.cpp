@@ -18,12 +18,14 @@ namespace {
 struct Piece {
   std::vector<engine::DiskSpec> disks;
   std::vector<engine::WallSpec> walls;
+  std::vector<engine::ZoneSpec> zones;
   std::vector<translate::NamedPart> names;
 
-  [[nodiscard]] std::size_t size() const { return disks.size() + walls.size(); }
+  [[nodiscard]] std::size_t size() const { return disks.size() + walls.size() + zones.size(); }
 };
 
-/// Walls first, so that no disk is on its way before its box is there; a piece has one sort.
+/// Walls and zones first, so that no disk is on its way before its box is there, or crosses a rim
+/// unseen; a piece has one sort.
 std::vector<Piece> pieces_of(const translate::SceneBodies& bodies) {
   std::vector<Piece> pieces;
   const auto name = [](Piece& piece, const std::vector<std::string>& names, std::size_t i) {
@@ -34,6 +36,11 @@ std::vector<Piece> pieces_of(const translate::SceneBodies& bodies) {
     pieces.back().walls.push_back(bodies.walls[i]);
     name(pieces.back(), bodies.wall_names, i);
   }
+  for (std::size_t i = 0; i < bodies.zones.size(); ++i) {
+    if (i % kCommandBodiesMax == 0) pieces.emplace_back();
+    pieces.back().zones.push_back(bodies.zones[i]);
+    name(pieces.back(), bodies.zone_names, i);
+  }
   for (std::size_t i = 0; i < bodies.disks.size(); ++i) {
     if (i % kCommandBodiesMax == 0) pieces.emplace_back();
     pieces.back().disks.push_back(bodies.disks[i]);
@@ -43,7 +50,7 @@ std::vector<Piece> pieces_of(const translate::SceneBodies& bodies) {
 }
 
 Command command_of(const Piece& piece, const std::string& at) {
-  Command command = Command::spawn(piece.disks, piece.walls);
+  Command command = Command::spawn(piece.disks, piece.walls, piece.zones);
   command.names(piece.names);
   if (!at.empty()) command.at(instant_of("--at", at));
   return command;
@@ -65,9 +72,10 @@ void load(const GlobalOptions& global, const LoadOptions& options) {
   if (options.new_ids) {
     for (engine::DiskSpec& disk : bodies.disks) disk.id = engine::kNoId;
     for (engine::WallSpec& wall : bodies.walls) wall.id = engine::kNoId;
+    for (engine::ZoneSpec& zone : bodies.zones) zone.id = engine::kNoId;
   }
   const std::vector<Piece> pieces = pieces_of(bodies);
-  const std::size_t total = bodies.disks.size() + bodies.walls.size();
+  const std::size_t total = bodies.disks.size() + bodies.walls.size() + bodies.zones.size();
   const auto session = connect(global);
   std::size_t loaded = 0;
   if (options.at.empty()) {

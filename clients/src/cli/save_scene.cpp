@@ -86,6 +86,10 @@ void save_scene(const std::string& from,
     assign(*wall.mutable_start(), state.start);
     assign(*wall.mutable_end(), state.end);
   }
+  for (int i = 0; i < scene.zones_size(); ++i) {
+    const auto place = static_cast<std::size_t>(scene.disks_size() + scene.walls_size() + i);
+    scene.mutable_zones(i)->set_id(ids[place]);
+  }
   if (const auto error = idl::save_scene(scene, to)) {
     throw RefusedError(
         {.code = engine::Code::FailedPrecondition, .field = {}, .reason = error->message()});

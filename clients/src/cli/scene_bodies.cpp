@@ -27,6 +27,10 @@ translate::SceneBodies scene_bodies(const std::string& path) {
 }
 
 void refuse_effects(const translate::SceneBodies& bodies, const std::string& who) {
+  if (!bodies.zones.empty()) {
+    throw RefusedError(
+        {.code = engine::Code::Unimplemented, .field = "zones", .reason = who + " knows no zones"});
+  }
   const bool is_open = bodies.period == engine::Vector2::Zero();
   if (bodies.effects == engine::Effects{} && is_open) return;
   throw RefusedError(

@@ -128,6 +128,7 @@ void simulate_exactly(const SimulateOptions& options,
   report.at_end = world.conserved();
   report.disks = world.disk_count();
   report.walls = world.wall_count();
+  report.zone_events = world.counters().zone_events;
   report.events = log.events();
   report.state_hash = world.state_hash();
   write_states(options, [&world](const auto& visit) { world.for_each_disk(visit); });
@@ -174,6 +175,7 @@ void simulate(const SimulateOptions& options) {
   }
   translate::SceneBodies bodies = scene_bodies(options.scene);
   CollisionLog log(options.collisions, options.hash, options.verify);
+  if (options.zones) log.write_zone_events_to(*options.zones);
   if (options.step) {
     simulate_in_steps(options, std::move(bodies), log);
   } else {

@@ -16,6 +16,7 @@ struct SimulateOptions {
   std::optional<engine::Instant> until;   ///< as a duration from the scene's start
   std::optional<double> tick_rate;        ///< Hz
   std::optional<std::string> collisions;  ///< where the log goes
+  std::optional<std::string> zones;       ///< where the log of zone events goes
   std::optional<std::string> states;      ///< where the final states go
   std::optional<std::string> save_scene;  ///< where the end goes, as a scene
   engine::Arithmetic arithmetic = engine::Arithmetic::Double;

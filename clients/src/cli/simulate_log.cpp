@@ -43,6 +43,13 @@ void CollisionLog::on_collision(const engine::Collision& collision) {
   if (file_) file_->flush_if_full();
 }
 
+void CollisionLog::on_zone_event(const engine::ZoneEvent& event) {
+  if (!zones_) return;
+  append_json(zones_->buffer(), event);
+  zones_->buffer() += '\n';
+  zones_->flush_if_full();
+}
+
 void CollisionLog::digest_from(const std::string& text, std::size_t first) {
   for (std::size_t i = first; i < text.size(); ++i) {
     digest_ = (digest_ ^ static_cast<unsigned char>(text[i])) * kFnvPrime;
@@ -51,10 +58,12 @@ void CollisionLog::digest_from(const std::string& text, std::size_t first) {
 
 void CollisionLog::flush_if_full() {
   if (file_) file_->flush_if_full();
+  if (zones_) zones_->flush_if_full();
 }
 
 void CollisionLog::finish() {
   if (file_) file_->flush();
+  if (zones_) zones_->flush();
 }
 
 }  // namespace stoss::client::cli

@@ -22,8 +22,11 @@ class CollisionLog : public engine::CollisionSink {
  public:
   /// `verify`: events between two checks of the world; 0: none.
   CollisionLog(const std::optional<std::string>& path, bool digest, std::uint64_t verify = 0);
+  /// Writes zone events, too, to a file of their own.
+  void write_zone_events_to(const std::string& path) { zones_.emplace(path); }
 
   void on_collision(const engine::Collision& collision) override;
+  void on_zone_event(const engine::ZoneEvent& event) override;
   /// To be called after every advance of the world, with its events.
   void count_events(const engine::World& world, std::uint64_t events);
   void flush_if_full();
@@ -43,6 +46,7 @@ class CollisionLog : public engine::CollisionSink {
   void digest_from(const std::string& text, std::size_t first);
 
   std::optional<LogFile> file_;
+  std::optional<LogFile> zones_;
   std::optional<engine::Verifier> verifier_;
   bool digesting_;
   std::string line_;

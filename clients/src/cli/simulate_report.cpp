@@ -42,6 +42,7 @@ std::string stats_json(const SimulateReport& report, const CollisionLog& log) {
       .count("order_dependent", log.order_dependent())
       .count("disks", report.disks)
       .count("walls", report.walls)
+      .count("zone_events", report.zone_events)
       .count("verify_checks", found.checks)
       .count("verify_overlaps", found.overlaps)
       .count("verify_missed", found.missed)
@@ -77,7 +78,8 @@ void print_report(const SimulateOptions& options,
   } else if (log.verifier() && !options.json) {
     std::fprintf(stderr, "%s\n", verification_text(log.verifier()->found()).c_str());
   }
-  if (options.hash || options.stats || options.collisions || options.states) return;
+  if (options.hash || options.stats || options.collisions || options.zones || options.states)
+    return;
   if (options.json) {
     std::printf("%s\n", stats_json(report, log).c_str());
     return;

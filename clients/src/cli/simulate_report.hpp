@@ -20,6 +20,7 @@ struct SimulateReport {
   engine::Instant end{};
   std::size_t disks = 0;
   std::size_t walls = 0;
+  std::uint64_t zone_events = 0;
   std::uint64_t events = 0;  ///< collisions and all others
   double wall_seconds = 0;
   std::optional<std::uint64_t> state_hash{};

@@ -18,6 +18,7 @@ struct SimulateTexts {
   std::string until;
   std::string tick_rate;
   std::string collisions;
+  std::string zones;
   std::string states;
   std::string save_scene;
   std::string scalar = "double";
@@ -78,6 +79,7 @@ void read_method(const SimulateTexts& texts, SimulateOptions& options) {
   }
   if (stepped && texts.step.empty()) throw UsageError("--method fixed-step needs --step");
   if (!stepped && !texts.step.empty()) throw UsageError("--step is for --method fixed-step");
+  if (stepped && options.zones) throw UsageError("--zones is for --method exact");
   if (stepped && options.verify != 0) throw UsageError("--verify is for --method exact");
   if (stepped) options.step = positive("--step", texts.step);
 }
@@ -88,6 +90,7 @@ SimulateOptions options_of(const SimulateTexts& texts, bool json) {
   if (!texts.until.empty()) options.until = duration("--until", texts.until);
   if (!texts.tick_rate.empty()) options.tick_rate = positive("--tick-rate", texts.tick_rate);
   if (!texts.collisions.empty()) options.collisions = texts.collisions;
+  if (!texts.zones.empty()) options.zones = texts.zones;
   if (!texts.states.empty()) options.states = texts.states;
   if (!texts.save_scene.empty()) options.save_scene = texts.save_scene;
   options.arithmetic = arithmetic_named(texts.scalar);
@@ -120,6 +123,8 @@ void add_simulate_verb(CLI::App& app, Invocation& invocation) {
   verb->add_option("--collisions",
                    texts->collisions,
                    "Write the collisions as JSON Lines to this file; -: standard output");
+  verb->add_option(
+      "--zones", texts->zones, "Write entries into zones and exits as JSON Lines to this file");
   verb->add_option(
       "--states", texts->states, "Write the final states of all disks as JSON Lines to this file");
   verb->add_option(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// states, collisions
+// states, collisions, zones
 
 #include "cli/common.hpp"
 #include "cli/table.hpp"
@@ -190,12 +190,12 @@ void add_states(CLI::App& app, Invocation& invocation) {
   });
 }
 
-struct CollisionsOptions {
+struct EventOptions {
   std::string count;
   std::string since;
 };
 
-std::string collision_line(const engine::Collision& c) {
+std::string event_line(const engine::Collision& c) {
   std::string out = '#' + std::to_string(c.sequence) + "  t " + format_instant(c.instant) + "  " +
                     word(c.kind) + ' ' + std::to_string(c.a) + ' ' + std::to_string(c.b) + "  at " +
                     format_number(c.point.x()) + ',' + format_number(c.point.y()) + "  impulse " +
@@ -205,22 +205,35 @@ std::string collision_line(const engine::Collision& c) {
   return out + '\n';
 }
 
-/// Prints at most `room` collisions of a run; returns how many.
-std::uint64_t print_run(const CollisionRun& run, std::uint64_t room, bool json) {
+std::string event_line(const engine::ZoneEvent& e) {
+  return '#' + std::to_string(e.sequence) + "  t " + format_instant(e.instant) + "  body " +
+         std::to_string(e.body) + (e.entered ? " enters " : " leaves ") + "zone " +
+         std::to_string(e.zone) + "  at " + format_number(e.position.x()) + ',' +
+         format_number(e.position.y()) + "  velocity " + format_number(e.velocity.x()) + ',' +
+         format_number(e.velocity.y()) + '\n';
+}
+
+const std::vector<engine::Collision>& events_of(const CollisionRun& run) { return run.collisions; }
+const std::vector<engine::ZoneEvent>& events_of(const ZoneRun& run) { return run.events; }
+
+/// Prints at most `room` events of a run; returns how many.
+template <class Run>
+std::uint64_t print_run(const Run& run, const char* what, std::uint64_t room, bool json) {
   if (run.lost > 0) {
     std::fprintf(stderr,
-                 "stoss: %llu collisions are no longer kept by the daemon\n",
-                 static_cast<unsigned long long>(run.lost));
+                 "stoss: %llu %s are no longer kept by the daemon\n",
+                 static_cast<unsigned long long>(run.lost),
+                 what);
   }
   std::string out;
   std::uint64_t printed = 0;
-  for (const engine::Collision& collision : run.collisions) {
+  for (const auto& event : events_of(run)) {
     if (printed == room) break;
     if (json) {
-      append_json(out, collision);
+      append_json(out, event);
       out += '\n';
     } else {
-      out += collision_line(collision);
+      out += event_line(event);
     }
     ++printed;
   }
@@ -228,16 +241,17 @@ std::uint64_t print_run(const CollisionRun& run, std::uint64_t room, bool json) 
   return printed;
 }
 
-void stream_collisions(const GlobalOptions& global, const CollisionsOptions& options) {
+template <class Feed>
+void stream_events(const GlobalOptions& global, const char* what, const EventOptions& options) {
   const std::uint64_t count = limit_of("--count", options.count);
   std::optional<std::uint64_t> since;
   if (!options.since.empty()) since = count_of("--since", options.since);
   const auto session = connect(global);
-  CollisionFeed feed(*session, since);
+  Feed feed(*session, since);
   auto heard = std::chrono::steady_clock::now();
   for (std::uint64_t printed = 0; printed < count && !interrupted();) {
-    if (const std::optional<CollisionRun> run = feed.next(kLook)) {
-      printed += print_run(*run, count - printed, global.json);
+    if (const auto run = feed.next(kLook)) {
+      printed += print_run(*run, what, count - printed, global.json);
       heard = std::chrono::steady_clock::now();
     } else if (std::chrono::steady_clock::now() - heard > session->timeout()) {
       check_alive(*session);
@@ -246,20 +260,25 @@ void stream_collisions(const GlobalOptions& global, const CollisionsOptions& opt
   }
 }
 
-void add_collisions(CLI::App& app, Invocation& invocation) {
-  auto options = std::make_shared<CollisionsOptions>();
+template <class Feed>
+void add_event_verb(CLI::App& app,
+                    Invocation& invocation,
+                    const char* name,
+                    const char* what,
+                    const std::string& description) {
+  auto options = std::make_shared<EventOptions>();
   CLI::App* verb = add_verb(app,
-                            "collisions",
-                            "Print collisions in their order as they happen; Ctrl-C ends it",
-                            "stoss collisions --since 1 --count 10 --json");
+                            name,
+                            description + " in their order as they happen; Ctrl-C ends it",
+                            "stoss " + std::string(name) + " --since 1 --count 10 --json");
   verb->add_option("--count", options->count, "End after so many");
   verb->add_option("--since",
                    options->since,
-                   "Begin with the collision of this number, as far back as the daemon keeps them");
-  verb->callback([&invocation, options] {
-    invocation.action = [&global = invocation.global, options] {
+                   "Begin with the one of this number, as far back as the daemon keeps them");
+  verb->callback([&invocation, options, what] {
+    invocation.action = [&global = invocation.global, options, what] {
       catch_interrupts();
-      stream_collisions(global, *options);
+      stream_events<Feed>(global, what, *options);
     };
   });
 }
@@ -268,7 +287,9 @@ void add_collisions(CLI::App& app, Invocation& invocation) {
 
 void add_stream_verbs(CLI::App& app, Invocation& invocation) {
   add_states(app, invocation);
-  add_collisions(app, invocation);
+  add_event_verb<CollisionFeed>(app, invocation, "collisions", "collisions", "Print collisions");
+  add_event_verb<ZoneFeed>(
+      app, invocation, "zones", "zone events", "Print entries into zones and exits from them");
 }
 
 }  // namespace stoss::client::cli

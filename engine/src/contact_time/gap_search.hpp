@@ -82,13 +82,13 @@ class GapSearch {
   /// The infimum of the t <= t_max with F <= 0 and falling.
   [[nodiscard]] std::optional<Duration<S>> first_contact(const S& t_max) const noexcept;
 
- private:
+ protected:
   [[nodiscard]] int slope_sign(const S& t) const noexcept;
   [[nodiscard]] S stationary_between(S low, S high, S start, Crossing crossing) const noexcept;
   [[nodiscard]] S lowest_beyond(const S& start) const noexcept;
   [[nodiscard]] Turn<S> turn_at(const S& t) const noexcept;
   [[nodiscard]] Turn<S> refined_turn(S t) const noexcept;
-  [[nodiscard]] Duration<S> root_between(S low, S high, S start) const noexcept;
+  [[nodiscard]] Duration<S> root_between(S low, S high, S start, Crossing crossing) const noexcept;
   [[nodiscard]] std::optional<Duration<S>> fall(const S& top, const S& bottom) const noexcept;
   [[nodiscard]] std::optional<Duration<S>> first_fall(const Inflections<S>& bends,
                                                       bool hump,
@@ -174,10 +174,15 @@ Turn<S> GapSearch<S, Gap>::turn_at(const S& t) const noexcept {
   return refined_turn(t);
 }
 
-/// The contact on a falling piece with F(low) > 0 and a negative F towards `high`.
+/// The root on a falling piece with F(low) > 0 and a negative F towards `high`; on a rising one
+/// with the signs the other way round, as that of -F.
 template <class S, class Gap>
-Duration<S> GapSearch<S, Gap>::root_between(S low, S high, S start) const noexcept {
+Duration<S> GapSearch<S, Gap>::root_between(S low,
+                                            S high,
+                                            S start,
+                                            Crossing crossing) const noexcept {
   using std::sqrt;
+  const S sense = crossing == Crossing::Falling ? S(1) : S(-1);
   const S eps = epsilon<S>();
   bool is_fine = false;
   S t = start;
@@ -187,6 +192,7 @@ Duration<S> GapSearch<S, Gap>::root_between(S low, S high, S start) const noexce
       is_fine = true;
       s = gap_.fine(t);
     }
+    s.value *= sense, s.slope *= sense, s.bend *= sense;
     const bool past_bottom = s.slope > S(0) && s.bend > S(0);
     (s.value > S(0) && !past_bottom ? low : high) = t;
     const S d = s.slope * s.slope - s.bend * s.value;
@@ -224,7 +230,7 @@ std::optional<Duration<S>> GapSearch<S, Gap>::fall(const S& top, const S& bottom
   const S square_slope = s.slope * s.slope;
   const bool from_top = square_slope - s.bend * s.value > S(0.5) * square_slope;
   const S end = larger(lowest.t.hi, bottom);
-  return root_between(top, end, from_top ? top : lowest.t.hi);
+  return root_between(top, end, from_top ? top : lowest.t.hi, Crossing::Falling);
 }
 
 /// The contact before F first turns.
@@ -240,7 +246,9 @@ std::optional<Duration<S>> GapSearch<S, Gap>::first_fall(const Inflections<S>& b
     const GapSample<S> last = gap_.coarse(t_max);
     if (last.slope < -last.slope_error) {
       if (last.value > last.value_error) return std::nullopt;
-      if (last.value < -last.value_error) return root_between(zero, t_max, zero);
+      if (last.value < -last.value_error) {
+        return root_between(zero, t_max, zero, Crossing::Falling);
+      }
     }
   }
   if (!(bends.second > zero)) return fall(zero, lowest_beyond(zero));
@@ -261,7 +269,7 @@ std::optional<Duration<S>> GapSearch<S, Gap>::second_fall(
   const Turn<S> top =
       turn_at(stationary_between(low, high, S(0.5) * (low + high), Crossing::Falling));
   if (!(top.value > S(0))) return refined_turn(top.t.hi).t;
-  return root_between(top.t.hi, high, top.t.hi);
+  return root_between(top.t.hi, high, top.t.hi, Crossing::Falling);
 }
 
 template <class S, class Gap>

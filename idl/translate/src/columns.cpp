@@ -284,6 +284,34 @@ void CollisionColumns::lend(wire::CollisionBlock& block, std::size_t first, std:
   idl::lend(block.spin_b, rows(spin_b_.padded(size()), first, count));
 }
 
+void ZoneEventColumns::append(const engine::ZoneEvent& event) {
+  seconds_.push_back(event.instant.seconds);
+  fraction_.push_back(event.instant.fraction);
+  zone_.push_back(event.zone);
+  body_.push_back(event.body);
+  entered_.push_back({event.entered});
+  x_.push_back(event.position.x());
+  y_.push_back(event.position.y());
+  vx_.push_back(event.velocity.x());
+  vy_.push_back(event.velocity.y());
+}
+
+void ZoneEventColumns::lend(wire::ZoneEventBlock& block,
+                            std::size_t first,
+                            std::size_t count) const {
+  idl::lend(block.seconds, rows(seconds_, first, count));
+  idl::lend(block.fraction, rows(fraction_, first, count));
+  idl::lend(block.zone, rows(zone_, first, count));
+  idl::lend(block.body, rows(body_, first, count));
+  const auto entered = rows(entered_, first, count);
+  static_assert(sizeof(Flag) == sizeof(bool));
+  idl::lend(block.entered, {entered.empty() ? nullptr : &entered.data()->on, entered.size()});
+  idl::lend(block.x, rows(x_, first, count));
+  idl::lend(block.y, rows(y_, first, count));
+  idl::lend(block.vx, rows(vx_, first, count));
+  idl::lend(block.vy, rows(vy_, first, count));
+}
+
 void HitColumns::append(const engine::RayHit& hit) {
   id_.push_back(hit.id);
   distance_.push_back(hit.distance);

@@ -92,8 +92,24 @@ std::optional<Reject> read_walls(const wire::WallBlock& block, CommandSpec& spec
   return std::nullopt;
 }
 
+std::optional<Reject> read_zones(const wire::ZoneBlock& block, CommandSpec& spec) {
+  if (auto reject = check_lengths({{"zones.y", block.y._length, false},
+                                   {"zones.radius", block.radius._length, false},
+                                   {"zones.id", block.id._length, true}},
+                                  block.x._length)) {
+    return reject;
+  }
+  spec.zones.reserve(block.x._length);
+  for (std::size_t i = 0; i < block.x._length; ++i) {
+    spec.zones.push_back({.id = at_or(block.id, i, 0),
+                          .center = {block.x._buffer[i], block.y._buffer[i]},
+                          .radius = block.radius._buffer[i]});
+  }
+  return std::nullopt;
+}
+
 std::optional<Reject> read_names(const wire::Command& command, CommandSpec& spec) {
-  const std::size_t bodies = spec.disks.size() + spec.walls.size();
+  const std::size_t bodies = spec.disks.size() + spec.walls.size() + spec.zones.size();
   const auto names = idl::view(command.names);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i].of >= bodies) {
@@ -146,10 +162,10 @@ std::optional<Reject> read_targets(const wire::Command& command, CommandSpec& sp
 }  // namespace
 
 std::size_t CommandSpec::footprint() const {
-  std::size_t bytes = sizeof(CommandSpec) + label.size() + ids.size() * sizeof(engine::Id) +
-                      vectors.size() * sizeof(engine::VectorFor) +
-                      disks.size() * sizeof(engine::DiskSpec) +
-                      walls.size() * sizeof(engine::WallSpec);
+  std::size_t bytes =
+      sizeof(CommandSpec) + label.size() + ids.size() * sizeof(engine::Id) +
+      vectors.size() * sizeof(engine::VectorFor) + disks.size() * sizeof(engine::DiskSpec) +
+      walls.size() * sizeof(engine::WallSpec) + zones.size() * sizeof(engine::ZoneSpec);
   for (const NamedPart& name : names) bytes += sizeof(NamedPart) + name.text.size();
   for (const std::string& name : effects_off) bytes += sizeof(std::string) + name.size();
   for (const auto& setting : settings) bytes += sizeof(setting) + setting.name.size();
@@ -166,10 +182,6 @@ engine::Outcome<CommandSpec> command_of(const wire::Command& command) {
   spec.value = command.value;
   spec.count = command.count;
   spec.label = idl::text(command.label);
-  if (command.zones.x._length != 0) {
-    return Reject{
-        .code = Code::Unimplemented, .field = "zones", .reason = "this version has no zones"};
-  }
   if (spec.op == idl::wire_value(idl::Op::kSetEffects)) {
     if (auto reject = read_settings(command, spec)) return *std::move(reject);
     return spec;
@@ -177,7 +189,8 @@ engine::Outcome<CommandSpec> command_of(const wire::Command& command) {
   if (auto reject = read_targets(command, spec)) return *std::move(reject);
   if (auto reject = read_disks(command.disks, spec)) return *std::move(reject);
   if (auto reject = read_walls(command.walls, spec)) return *std::move(reject);
-  if (spec.disks.size() + spec.walls.size() > stoss_v1_MAX_COMMAND_BODIES) {
+  if (auto reject = read_zones(command.zones, spec)) return *std::move(reject);
+  if (spec.disks.size() + spec.walls.size() + spec.zones.size() > stoss_v1_MAX_COMMAND_BODIES) {
     return invalid(
         "walls",
         "one command may make at most " + std::to_string(stoss_v1_MAX_COMMAND_BODIES) + " bodies");
@@ -214,6 +227,22 @@ void DiskColumns::lend(wire::DiskBlock& block) const {
   idl::lend(block.mass, mass_);
   idl::lend(block.angle, angle_);
   idl::lend(block.spin, spin_);
+}
+
+ZoneColumns::ZoneColumns(const std::vector<engine::ZoneSpec>& zones) {
+  for (const engine::ZoneSpec& zone : zones) {
+    id_.push_back(zone.id);
+    x_.push_back(zone.center.x());
+    y_.push_back(zone.center.y());
+    radius_.push_back(zone.radius);
+  }
+}
+
+void ZoneColumns::lend(wire::ZoneBlock& block) const {
+  idl::lend(block.id, id_);
+  idl::lend(block.x, x_);
+  idl::lend(block.y, y_);
+  idl::lend(block.radius, radius_);
 }
 
 }  // namespace stoss::translate

@@ -112,6 +112,18 @@ bool consistent(const wire::CollisionBlock& block) {
                              [](std::uint8_t value) { return contact_kind_of(value).has_value(); });
 }
 
+bool consistent(const wire::ZoneEventBlock& block) {
+  return all_are(block.zone._length,
+                 {block.seconds._length,
+                  block.fraction._length,
+                  block.body._length,
+                  block.entered._length,
+                  block.x._length,
+                  block.y._length,
+                  block.vx._length,
+                  block.vy._length});
+}
+
 bool consistent(const wire::HitBlock& block) {
   return all_are(block.id._length,
                  {block.distance._length,
@@ -197,6 +209,18 @@ engine::Collision collision_at(const wire::CollisionBlock& block,
           .velocity_b = {block.velocity_b_x._buffer[i], block.velocity_b_y._buffer[i]},
           .spin_a = at_or(block.spin_a, i, 0),
           .spin_b = at_or(block.spin_b, i, 0)};
+}
+
+engine::ZoneEvent zone_event_at(const wire::ZoneEventBlock& block,
+                                std::uint64_t first_number,
+                                std::size_t i) {
+  return {.sequence = first_number + i,
+          .instant = {block.seconds._buffer[i], block.fraction._buffer[i]},
+          .zone = block.zone._buffer[i],
+          .body = block.body._buffer[i],
+          .entered = block.entered._buffer[i],
+          .position = {block.x._buffer[i], block.y._buffer[i]},
+          .velocity = {block.vx._buffer[i], block.vy._buffer[i]}};
 }
 
 engine::RayHit hit_at(const wire::HitBlock& block, std::size_t i) {

@@ -53,6 +53,10 @@ engine::WallSpec spec_of(const Wall& wall) {
           .velocity = vector_of(wall.velocity())};
 }
 
+engine::ZoneSpec spec_of(const Zone& zone) {
+  return {.id = zone.id(), .center = vector_of(zone.center()), .radius = zone.radius()};
+}
+
 engine::Effects effects_of(const Effects& asked, std::uint64_t seed) {
   engine::Effects effects;
   if (asked.has_gravity()) {
@@ -102,7 +106,6 @@ std::optional<Reject> unsupported(const Scene& scene) {
       return unimplemented("effects." + name, "this version has no exact " + name);
     }
   }
-  if (!scene.zones().empty()) return unimplemented("zones", "this version has no zones");
   return std::nullopt;
 }
 
@@ -136,7 +139,17 @@ engine::Outcome<SceneBodies> bodies_of(const Scene& scene) {
     bodies.walls.push_back(spec_of(wall));
     bodies.wall_names.push_back(wall.name());
   }
+  for (const Zone& zone : scene.zones()) {
+    bodies.zones.push_back(spec_of(zone));
+    bodies.zone_names.push_back(zone.name());
+  }
   return bodies;
+}
+
+const std::string& SceneBodies::name_of(std::size_t i) const {
+  if (i < disk_names.size()) return disk_names[i];
+  i -= disk_names.size();
+  return i < wall_names.size() ? wall_names[i] : zone_names[i - wall_names.size()];
 }
 
 std::vector<engine::Arithmetic> arithmetics() {
@@ -165,7 +178,7 @@ engine::Outcome<SceneWorld> make_world(const SceneBodies& bodies, const WorldCho
                                           .broad_phase = choice.broad_phase,
                                           .effects = bodies.effects,
                                           .period = bodies.period});
-  auto made = world.spawn({bodies.disks, bodies.walls});
+  auto made = world.spawn({bodies.disks, bodies.walls, bodies.zones});
   if (!made) return made.reject();
   return SceneWorld{std::move(world), std::move(made).value()};
 }
@@ -174,6 +187,9 @@ void adopt_ids(SceneBodies& bodies, std::span<const engine::Id> ids) {
   for (std::size_t i = 0; i < bodies.disks.size(); ++i) bodies.disks[i].id = ids[i];
   for (std::size_t i = 0; i < bodies.walls.size(); ++i) {
     bodies.walls[i].id = ids[bodies.disks.size() + i];
+  }
+  for (std::size_t i = 0; i < bodies.zones.size(); ++i) {
+    bodies.zones[i].id = ids[bodies.disks.size() + bodies.walls.size() + i];
   }
 }
 

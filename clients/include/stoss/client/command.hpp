@@ -20,9 +20,11 @@ inline constexpr std::size_t kCommandBodiesMax = 1024;
 /// paused), or at the instant given to at().
 class Command {
  public:
-  /// Brings bodies in; the reply's ids are theirs, disks first. Id 0 asks the world for one.
+  /// Brings bodies and zones in; the reply's ids are theirs: disks, walls, zones. Id 0 asks the
+  /// world for one.
   static Command spawn(std::vector<engine::DiskSpec> disks,
-                       std::vector<engine::WallSpec> walls = {});
+                       std::vector<engine::WallSpec> walls = {},
+                       std::vector<engine::ZoneSpec> zones = {});
   static Command remove(std::vector<engine::Id> ids);
   /// In m/s, for disks and walls.
   static Command set_velocity(std::vector<engine::VectorFor> velocities);
@@ -50,7 +52,7 @@ class Command {
 
   /// Applies the command at exactly this instant of the world's clock, between ticks if need be.
   Command& at(const engine::Instant& instant);
-  /// Names for new bodies, each by its position in disks, then walls.
+  /// Names for new bodies, each by its position in disks, then walls, then zones.
   Command& names(std::vector<translate::NamedPart> names);
 
   [[nodiscard]] const translate::CommandSpec& spec() const { return spec_; }

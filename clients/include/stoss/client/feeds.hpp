@@ -81,6 +81,31 @@ class CollisionFeed {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Consecutive zone events.
+struct ZoneRun {
+  std::uint64_t epoch = 0;
+  std::uint64_t lost = 0;  ///< events right before these that the daemon no longer had
+  std::vector<engine::ZoneEvent> events{};
+};
+
+/// Who enters and leaves zones, in order. A gap in the numbers is filled by asking the daemon.
+class ZoneFeed {
+ public:
+  /// `since`: the number of the first event wanted; else starts with the next that happens.
+  explicit ZoneFeed(Session& session, std::optional<std::uint64_t> since = std::nullopt);
+  ~ZoneFeed();
+  ZoneFeed(ZoneFeed&&) noexcept;
+  ZoneFeed& operator=(ZoneFeed&&) noexcept;
+  /// The next events, waiting at most `timeout` (and, in a gap, for the session's).
+  std::optional<ZoneRun> next(Milliseconds timeout);
+  /// As of CollisionFeed.
+  [[nodiscard]] bool matched() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// The raw changes of motions, in the order of arrival; what a ReplicaModel applies.
 class MotionFeed {
  public:
@@ -151,6 +176,7 @@ struct SceneImage {
   std::vector<std::string> effects;
   std::vector<DiskShape> disks;
   std::vector<engine::WallState> walls;
+  std::vector<engine::ZoneState> zones;
   std::vector<std::pair<engine::Id, std::string>> names;
 };
 

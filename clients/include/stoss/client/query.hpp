@@ -46,6 +46,8 @@ struct Query {
   static Query world();
   /// Collisions from a number on; `count` 0: as many as there are.
   static Query collisions(std::uint64_t first, std::uint64_t count = 0);
+  /// Zone events, likewise.
+  static Query zone_events(std::uint64_t first, std::uint64_t count = 0);
   static Query features();
   static Query status();
 
@@ -67,15 +69,17 @@ struct Answer {
   std::uint64_t epoch = 0;
   std::uint64_t motion_number = 0;     ///< the last motion batch whose content is in this answer
   std::uint64_t collision_number = 0;  ///< the last collision that has happened
+  std::uint64_t zone_number = 0;       ///< the last zone event that has happened
   std::uint64_t state_hash = 0;        ///< Query::world
   std::vector<FoundBody> bodies;
-  std::vector<engine::WallState> walls;       ///< Query::list, Query::region
-  std::vector<engine::RayHit> hits;           ///< Query::ray
-  std::vector<engine::MotionRecord> motions;  ///< Query::world, in the order of ids
-  std::vector<engine::BodyRecord> statics;    ///< Query::world, in the order of ids
-  std::vector<engine::Collision> collisions;  ///< Query::collisions, in their order
-  std::vector<std::string> features;          ///< Query::features
-  std::optional<Status> status;               ///< Query::status
+  std::vector<engine::WallState> walls;        ///< Query::list, Query::region
+  std::vector<engine::RayHit> hits;            ///< Query::ray
+  std::vector<engine::MotionRecord> motions;   ///< Query::world, in the order of ids
+  std::vector<engine::BodyRecord> statics;     ///< Query::world, in the order of ids
+  std::vector<engine::Collision> collisions;   ///< Query::collisions, in their order
+  std::vector<engine::ZoneEvent> zone_events;  ///< Query::zone_events, in their order
+  std::vector<std::string> features;           ///< Query::features
+  std::optional<Status> status;                ///< Query::status
 };
 
 }  // namespace stoss::client

@@ -63,6 +63,8 @@ class Replica {
       std::optional<engine::Instant> at = std::nullopt) const;
   [[nodiscard]] std::vector<engine::WallState> walls(
       std::optional<engine::Instant> at = std::nullopt) const;
+  /// The zones as the scene topic tells them: up to a quarter of a second late.
+  [[nodiscard]] std::vector<engine::ZoneState> zones() const;
 
  private:
   class Impl;

@@ -87,6 +87,9 @@ struct Effects {
   std::optional<Thermostat> thermostat;
   std::optional<Drag> drag;
   std::optional<Growth> growth;
+  /// The world takes zones, as one with any effect does. Set by itself when a zone comes into a
+  /// world without effects, and as long as there are zones; it shows nowhere but here.
+  bool zones = false;
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };

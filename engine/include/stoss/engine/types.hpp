@@ -43,10 +43,19 @@ struct WallSpec {
   Vector2 velocity = Vector2::Zero();  ///< m/s
 };
 
-/// Bodies that come into the world together or not at all.
+/// A zone: a fixed circle that pushes nothing and reports who enters and who leaves. A disk is
+/// inside when its centre is.
+struct ZoneSpec {
+  Id id = kNoId;
+  Vector2 center = Vector2::Zero();  ///< m
+  double radius = 0;                 ///< m, > 0
+};
+
+/// Bodies and zones that come into the world together or not at all.
 struct SpawnRequest {
   std::span<const DiskSpec> disks;
   std::span<const WallSpec> walls;
+  std::span<const ZoneSpec> zones{};
 };
 
 /// A body's velocity to set (m/s), or an impulse to give it (kg m/s).
@@ -77,11 +86,23 @@ struct Collision {
   double spin_b = 0;
 };
 
-/// Takes collisions in the order in which the world processes them.
+/// A disk's centre has crossed the rim of a zone. A touch without crossing is none.
+struct ZoneEvent {
+  std::uint64_t sequence = 0;  ///< 1, 2, 3, ... in the world's order, without gaps
+  Instant instant;
+  Id zone = kNoId;
+  Id body = kNoId;
+  bool entered = false;                ///< false: it has left
+  Vector2 position = Vector2::Zero();  ///< of the disk's centre, m
+  Vector2 velocity = Vector2::Zero();  ///< m/s
+};
+
+/// Takes what happens in the order in which the world processes it.
 class CollisionSink {
  public:
   virtual ~CollisionSink() = default;
   virtual void on_collision(const Collision& collision) = 0;
+  virtual void on_zone_event(const ZoneEvent&) {}
 };
 
 /// A disk evaluated at an instant; in a periodic world the image in [0, period).
@@ -103,6 +124,14 @@ struct WallState {
   Vector2 start = Vector2::Zero();
   Vector2 end = Vector2::Zero();
   Vector2 velocity = Vector2::Zero();
+};
+
+/// A zone as it stands.
+struct ZoneState {
+  Id id = kNoId;
+  Vector2 center = Vector2::Zero();
+  double radius = 0;
+  friend bool operator==(const ZoneState&, const ZoneState&) = default;
 };
 
 /// A number held as the exact sum of two doubles; `low` is at most half an ulp of `high`.

@@ -56,6 +56,7 @@ struct Counters {
   std::uint64_t collisions = 0;   ///< since the world began
   std::uint64_t regularised = 0;  ///< contacts that a collapse guard changed
   std::uint64_t kicks = 0;        ///< of the thermostat, since it came on
+  std::uint64_t zone_events = 0;  ///< crossings of zones' rims
   std::uint64_t renewals = 0;     ///< broad-phase events of this object; not part of its state
 };
 
@@ -86,19 +87,22 @@ class World {
   Vector2 period() const;
   std::size_t disk_count() const;
   std::size_t wall_count() const;
+  std::size_t zone_count() const;
   Counters counters() const;
   Conserved conserved() const;
 
   // Commands. Each takes effect at now(); all of it or nothing.
 
-  /// Brings bodies in. Returns their ids in the order of the request, disks first.
+  /// Brings bodies in. Returns their ids in the order of the request: disks, walls, zones. Who is
+  /// inside a zone as it or they come in, strictly within the rim, is so without an event.
   /// Errors: InvalidArgument (not finite, radius or mass <= 0, a wall of no length, a moving static
   /// disk), AlreadyExists (id in use or used before), Overlap (with whom, by how much).
   Outcome<std::vector<Id>> spawn(const SpawnRequest& request);
+  /// Removes bodies and zones; a zone goes, and whoever is inside one goes, without an event.
   /// Errors: NotFound; InvalidArgument when an id is named twice.
   Outcome<Done> remove(std::span<const Id> ids);
   /// Sets velocities (m/s) of disks or walls. Errors: NotFound, InvalidArgument (not finite, named
-  /// twice), FailedPrecondition (a static disk).
+  /// twice), FailedPrecondition (a static disk, a zone).
   Outcome<Done> set_velocity(std::span<const VectorFor> velocities);
   /// Adds impulse / mass to the velocities of dynamic disks. Errors as set_velocity;
   /// FailedPrecondition for whatever is not a dynamic disk.
@@ -135,6 +139,12 @@ class World {
   /// Every disk / wall in the order of ids.
   void for_each_disk(const std::function<void(const BodyState&)>& visit) const;
   void for_each_wall(const std::function<void(const WallState&)>& visit) const;
+  /// Errors: NotFound (also for what is no zone).
+  Outcome<ZoneState> zone(Id id) const;
+  /// Every zone in the order of ids.
+  void for_each_zone(const std::function<void(const ZoneState&)>& visit) const;
+  /// Ids, in order, of the disks inside a zone. Errors: NotFound (also for what is no zone).
+  Outcome<std::vector<Id>> inside(Id zone) const;
   /// Ids, in order, of the disks and walls that touch the box [low, high].
   std::vector<Id> region(const Vector2& low, const Vector2& high) const;
   /// The `count` disks and walls nearest to a point, nearest first, ties by id.
@@ -155,7 +165,7 @@ class World {
   /// Errors: NotFound.
   Outcome<MotionRecord> motion(Id id) const;
   Outcome<BodyRecord> body(Id id) const;
-  /// Ids of all bodies in order.
+  /// Ids of all bodies in order; zones are none.
   std::vector<Id> ids() const;
   /// What changed since the last call, in the order of ids, once per body (a body that came and
   /// went in between does not appear).

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON Lines of collisions and states, written by hand because the library's printer takes
-// microseconds a line. What is written is the canonical Protobuf JSON mapping of stoss.Collision
-// and stoss.BodyState with proto field names: 64-bit integers are strings, doubles are in the
-// shortest form that reads back to the same bits, and a field at its default is absent. (A message
-// field that is always set, as a position, is printed even when it is zero: as {}.)
+// JSON Lines of collisions, zone events and states, written by hand because the library's printer
+// takes microseconds a line. What is written is the canonical Protobuf JSON mapping of
+// stoss.Collision, stoss.ZoneEvent and stoss.BodyState with proto field names: 64-bit integers are
+// strings, doubles are in the shortest form that reads back to the same bits, and a field at its
+// default is absent. (A message field that is always set, as a position, is printed even when it is
+// zero: as {}.)
 #pragma once
 
 #include <stoss/idl/types.hpp>
@@ -41,6 +42,18 @@ struct CollisionLine {
   bool order_dependent = false;
 };
 
+/// What one line of a log of zone events says; the fields are those of stoss.ZoneEvent.
+struct ZoneEventLine {
+  std::uint64_t sequence = 0;
+  std::int64_t seconds = 0;
+  std::uint64_t fraction = 0;
+  std::uint64_t zone = 0;
+  std::uint64_t body = 0;
+  bool entered = false;
+  Pair position;
+  Pair velocity;
+};
+
 /// What one line of a state log says; the fields are those of stoss.BodyState.
 struct BodyStateLine {
   std::uint64_t id = 0;
@@ -55,6 +68,7 @@ struct BodyStateLine {
 
 /// Appends the object without a line end.
 void append_collision(std::string& out, const CollisionLine& collision);
+void append_zone_event(std::string& out, const ZoneEventLine& event);
 void append_body_state(std::string& out, const BodyStateLine& state);
 
 /// Appends a number as the lines have it: shortest form; "NaN", "Infinity", "-Infinity" in quotes.

@@ -124,6 +124,24 @@ class CollisionColumns {
   SparseColumn spin_a_, spin_b_;
 };
 
+/// Rows of a ZoneEventBlock.
+class ZoneEventColumns {
+ public:
+  void append(const engine::ZoneEvent& event);
+  void clear() { *this = ZoneEventColumns(); }
+  [[nodiscard]] std::size_t size() const { return zone_.size(); }
+  void lend(wire::ZoneEventBlock& block, std::size_t first, std::size_t count) const;
+
+ private:
+  std::vector<std::int64_t> seconds_;
+  std::vector<std::uint64_t> fraction_, zone_, body_;
+  struct Flag {  // for std::vector<bool> has no array to lend
+    bool on = false;
+  };
+  std::vector<Flag> entered_;
+  std::vector<double> x_, y_, vx_, vy_;
+};
+
 /// Rows of a HitBlock.
 class HitColumns {
  public:
@@ -145,6 +163,7 @@ class HitColumns {
 [[nodiscard]] bool consistent(const wire::MotionBlock& block);
 [[nodiscard]] bool consistent(const wire::StaticBlock& block);
 [[nodiscard]] bool consistent(const wire::CollisionBlock& block);
+[[nodiscard]] bool consistent(const wire::ZoneEventBlock& block);
 [[nodiscard]] bool consistent(const wire::HitBlock& block);
 
 [[nodiscard]] engine::MotionRecord motion_at(const wire::MotionBlock& block, std::size_t i);
@@ -161,6 +180,9 @@ class HitColumns {
 [[nodiscard]] engine::Collision collision_at(const wire::CollisionBlock& block,
                                              std::uint64_t first_number,
                                              std::size_t i);
+[[nodiscard]] engine::ZoneEvent zone_event_at(const wire::ZoneEventBlock& block,
+                                              std::uint64_t first_number,
+                                              std::size_t i);
 [[nodiscard]] engine::RayHit hit_at(const wire::HitBlock& block, std::size_t i);
 
 }  // namespace stoss::translate

@@ -17,7 +17,7 @@ namespace stoss::translate {
 
 /// A name for one of a command's new bodies.
 struct NamedPart {
-  std::uint64_t of = 0;  ///< position in disks, then walls
+  std::uint64_t of = 0;  ///< position in disks, then walls, then zones
   std::string text;
 };
 
@@ -34,6 +34,7 @@ struct CommandSpec {
   std::vector<engine::VectorFor> vectors;  ///< ids with x, y; for OP_SET_VELOCITY, OP_APPLY_IMPULSE
   std::vector<engine::DiskSpec> disks;
   std::vector<engine::WallSpec> walls;
+  std::vector<engine::ZoneSpec> zones;
   std::vector<NamedPart> names;
   std::vector<std::string> effects_off;         ///< OP_SET_EFFECTS: these first
   std::vector<engine::EffectSetting> settings;  ///< OP_SET_EFFECTS: then these
@@ -42,7 +43,7 @@ struct CommandSpec {
   [[nodiscard]] std::size_t footprint() const;
 };
 
-/// Errors: Unimplemented for another protocol version and for zones; InvalidArgument for arrays of
+/// Errors: Unimplemented for another protocol version; InvalidArgument for arrays of
 /// a block whose lengths differ, an unknown kind of body, a name of nothing, more than
 /// stoss_v1_MAX_COMMAND_BODIES bodies in all; each names the field. Values are the engine's to
 /// judge.
@@ -62,6 +63,18 @@ class DiskColumns {
   std::vector<std::uint64_t> id_;
   std::vector<std::uint8_t> kind_;
   std::vector<double> x_, y_, vx_, vy_, radius_, mass_, angle_, spin_;
+};
+
+/// Likewise of a ZoneBlock.
+class ZoneColumns {
+ public:
+  ZoneColumns() = default;
+  explicit ZoneColumns(const std::vector<engine::ZoneSpec>& zones);
+  void lend(wire::ZoneBlock& block) const;
+
+ private:
+  std::vector<std::uint64_t> id_;
+  std::vector<double> x_, y_, radius_;
 };
 
 }  // namespace stoss::translate

@@ -32,10 +32,15 @@ struct SceneBodies {
   std::vector<std::string> disk_names;
   std::vector<engine::WallSpec> walls;
   std::vector<std::string> wall_names;
+  std::vector<engine::ZoneSpec> zones;
+  std::vector<std::string> zone_names;
+
+  /// Of the i-th of all ids that make_world() returns.
+  [[nodiscard]] const std::string& name_of(std::size_t i) const;
 };
 
 /// Whatever of the scene the engine has no exact treatment for: Unimplemented, with the field named
-/// as "effects.gravity" or "zones".
+/// as "effects.drag".
 [[nodiscard]] std::optional<engine::Reject> unsupported(const Scene& scene);
 
 /// The bodies of a scene that has passed idl::check_scene. Errors: those of unsupported();
@@ -49,7 +54,8 @@ struct WorldChoice {
   engine::BroadPhaseKind broad_phase = engine::BroadPhaseKind::Neighbours;
 };
 
-/// A new world with the bodies in it, and the ids that they got: disks first, then walls.
+/// A new world with the bodies in it, and the ids that they got: disks first, then walls, then
+/// zones.
 struct SceneWorld {
   engine::World world;
   std::vector<engine::Id> ids;
