@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <stoss/client/motion_part.hpp>
+#include <stoss/engine/effects.hpp>
 #include <stoss/translate/basics.hpp>
 #include <stoss/translate/columns.hpp>
 

@@ -53,6 +53,8 @@ struct Row {
   std::string name;
   Effects effects;
   bool is_other_build = false;  ///< the engine without any effects compiled in
+  bool is_periodic = false;     ///< along both axes, about the same box
+  int zones = 0;                ///< spread over the box
 };
 
 std::vector<Row> make_rows() {
@@ -88,6 +90,10 @@ std::vector<Row> make_rows() {
       {"floor friction", with(slowed)},
       {"floor friction, restitution, rough",
        with([&](Effects& e) { slowed(e), lossy(e), rough(e); })},
+      {.name = "periodic", .is_periodic = true},
+      {.name = "periodic, gravity", .effects = with(pull), .is_periodic = true},
+      {.name = "16 zones", .zones = 16},
+      {.name = "16 zones, floor friction", .effects = with(slowed), .zones = 16},
   };
 }
 
@@ -177,7 +183,7 @@ std::array<double, kKernels> time_kernels(const std::vector<Case>& cases) {
 }
 
 std::array<double, kKernels> time_kernels(const Row& row, const std::vector<Case>& cases) {
-  switch (laws_for(row.effects)) {
+  switch (laws_for(row.effects, row.is_periodic || row.zones > 0)) {
     case LawsKind::Plain:
       return time_kernels<PlainLaws>(cases);
     case LawsKind::Contact:
@@ -198,12 +204,29 @@ std::array<double, kKernels> time_kernels(const Row& row, const std::vector<Case
 using Figures = std::array<double, kKernels + 1>;
 using Round = std::vector<Figures>;
 
+/// Zones of a tenth of the side, on a lattice; their area is an eighth of the box's.
+std::vector<ZoneSpec> make_zones(int count, double side) {
+  const auto across = static_cast<int>(std::lround(std::sqrt(count)));
+  std::vector<ZoneSpec> zones(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    ZoneSpec& zone = zones[static_cast<std::size_t>(i)];
+    zone.center = {side * (i % across + 0.5) / across, side * (i / across + 0.5) / across};
+    zone.radius = 0.05 * side;
+  }
+  return zones;
+}
+
 Advance make_world(const Row& row, int columns) {
   if (row.is_other_build) return stoss::engine_exact::make_gas_run(columns, kAreaFraction);
-  return stoss::bench::make_run<World, DiskSpec, WallSpec>(columns, kAreaFraction, [&row] {
+  const double side = stoss::bench::side_of_box(columns, kAreaFraction);
+  return stoss::bench::make_run<World, DiskSpec, WallSpec>(columns, kAreaFraction, [&] {
     WorldOptions options;
     options.effects = row.effects;
-    return World(options);
+    if (row.is_periodic) options.period = {1.25 * side, 1.25 * side};
+    World world(options);
+    const std::vector<ZoneSpec> zones = make_zones(row.zones, side);
+    if (!world.spawn({.disks = {}, .walls = {}, .zones = zones}).ok()) std::abort();
+    return world;
   });
 }
 

@@ -18,6 +18,13 @@ namespace stoss::bench {
 /// Processes so many events and returns how many of them were collisions.
 using Advance = std::function<std::uint64_t(std::uint64_t events)>;
 
+inline constexpr double kGasRadius = 0.4375;  // m
+
+/// Of the box of columns^2 disks, m.
+inline double side_of_box(int columns, double area_fraction) {
+  return columns * kGasRadius * std::sqrt(std::numbers::pi / area_fraction);
+}
+
 /// columns^2 disks of 0.4375 m in the world that `make` makes, off their lattice already. Throws
 /// when the world refuses them or stalls.
 template <class World, class Disk, class Wall>
@@ -25,8 +32,7 @@ Advance make_run(
     int columns, double area_fraction, const std::function<World()>& make = [] {
       return World();
     }) {
-  constexpr double kRadius = 0.4375;
-  const double side = columns * kRadius * std::sqrt(std::numbers::pi / area_fraction);
+  const double side = side_of_box(columns, area_fraction);
   const double pitch = side / columns;
   test::Random random(7);
   std::vector<Disk> disks(static_cast<std::size_t>(columns * columns));
@@ -34,7 +40,7 @@ Advance make_run(
     const auto n = static_cast<int>(i);
     disks[i].position = {pitch * (n % columns + 0.5), pitch * (n / columns + 0.5)};
     disks[i].velocity = {random.uniform(-1.7, 1.7), random.uniform(-1.7, 1.7)};
-    disks[i].radius = kRadius;
+    disks[i].radius = kGasRadius;
   }
   const double corners[5][2] = {{0, 0}, {side, 0}, {side, side}, {0, side}, {0, 0}};
   std::vector<Wall> walls(4);

@@ -22,12 +22,14 @@ EFFECT_FILES = [
     "basic_world_rest.hpp",
     "basic_world_switch.hpp",
     "basic_world_thermostat.hpp",
+    "basic_world_zones.hpp",
     "contact_law/restitution.hpp",
     "contact_law/rough.hpp",
     "contact_time/accelerated.hpp",
     "contact_time/accelerated_disk_disk.hpp",
     "contact_time/accelerated_disk_wall.hpp",
     "contact_law/growing.hpp",
+    "contact_time/curved_rim_crossing.hpp",
     "contact_time/drag.hpp",
     "contact_time/drag_clock.hpp",
     "contact_time/drag_curve.hpp",
@@ -35,6 +37,7 @@ EFFECT_FILES = [
     "contact_time/gap_curve.hpp",
     "contact_time/gap_search.hpp",
     "contact_time/growing.hpp",
+    "contact_time/rim_crossing.hpp",
     "elementary.hpp",
     "motion_law/accelerated.hpp",
     "motion_law/drag.hpp",
@@ -42,7 +45,9 @@ EFFECT_FILES = [
     "motion_law/growth.hpp",
     "motion_law/rest.hpp",
     "motion_law/thermostat.hpp",
+    "periodic.hpp",
     "philox.hpp",
+    "zone_passages.hpp",
 ]
 SECTION = re.compile(r"^Relocation section '\.rela\.text(?:\.unlikely|\.hot)?\.(_Z[^']+)'")
 CALL = re.compile(r"R_\S+\s+\S+\s+(_Z[^\s+-]+)")

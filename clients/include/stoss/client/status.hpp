@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stoss/engine/instant.hpp>
+#include <stoss/engine/types.hpp>
 #include <stoss/idl/types.hpp>
 
 #include <cstdint>
