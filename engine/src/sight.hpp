@@ -15,7 +15,7 @@
 //   certain. Errors of (1): `off` covers the rounding of x and of v (t - since), with t up to the
 //   end of the epoch; Epoch chooses that end so that it stays far below the slack of (2).
 // Accuracy: (2) is below the kernel's time by 1e-9 of itself (float: 3e-5) and a little, and never
-//   above: tests/engine/sight_test.cpp, tests/engine/world/broad_phase_test.cpp.
+//   above: tests/engine/sight_test.cpp, tests/engine/world/properties_test.cpp.
 
 #include "screen.hpp"
 

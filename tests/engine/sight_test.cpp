@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a prediction sees, against the kernel: never later than the contact, and hardly sooner.
+#include "sight.hpp"
+
+#include "contact_time/disk_disk.hpp"
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace stoss::engine {
+namespace {
+
+using test::Random;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+DoubleWord<double> word(double x) { return {x, 0}; }
+
+/// A disk somewhere near `place`, that has been under way since some time before `now`.
+Motion<double> random_motion(Random& random, const Instant& now, double place, double scale) {
+  Motion<double> motion;
+  motion.velocity = {word(random.uniform(-1, 1)), word(random.uniform(-1, 1))};
+  motion.since = *later_by(now, scale * random.uniform(0, 4), 0.0);
+  motion.position = {word(place + scale * random.uniform(-3, 3)),
+                     word(-place + scale * random.uniform(-3, 3))};
+  return motion;
+}
+
+/// By the kernel, s after `now`; infinity if never.
+double exact_contact(const Motion<double>& a,
+                     const Motion<double>& b,
+                     double reach,
+                     const Instant& now) {
+  const RelativeMotion<double> relative{
+      position_at(b, now) - position_at(a, now), b.velocity - a.velocity, 0};
+  const auto after = disk_disk_contact<double>(relative, word(reach));
+  return after ? after->hi : kNever;
+}
+
+TEST(Sight, BoundsEveryContactFromBelowAndClosely) {
+  Random random(test::seed_of_run());
+  int contacts = 0;
+  int loose = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    const double scale = random.decades(-3, 3);
+    const double place = random.one_in(4) ? scale * random.decades(0, 6) : 0;
+    const Instant begin{static_cast<std::int64_t>(random.below(1000)) - 500, 0};
+    const Motion<double> a = random_motion(random, begin, place, scale);
+    const Motion<double> b = random_motion(random, begin, place, scale);
+    const Instant now = *later_by(begin, 5 * scale, 0.0);
+    const Epoch<double> epoch{begin, 8 * scale};
+    const double radius = scale * random.uniform(0.01, 1);
+    const Sight see_a = sight_of(a, radius, BodyType::Dynamic, epoch);
+    const Sight see_b = sight_of(b, radius, BodyType::Dynamic, epoch);
+    const double soonest =
+        soonest_contact(see_a, see_b, rough_seconds(now, begin), kScreenSlack<double>);
+    const double exact = exact_contact(a, b, 2 * radius, now);
+    ASSERT_LE(soonest, exact) << "case " << i;
+    if (exact == kNever) continue;
+    ++contacts;
+    if (soonest < exact * (1 - 1e-6) - 1e-6 * scale) ++loose;
+  }
+  EXPECT_GT(contacts, 5'000);
+  EXPECT_LT(loose, contacts / 1000);  // those that all but graze
+}
+
+TEST(Sight, SeesThatDisksRecedeOrPassBy) {
+  const Epoch<double> epoch;
+  const auto see = [&](double x, double y, double vx, double vy) {
+    const Motion<double> motion{{word(x), word(y)}, {word(vx), word(vy)}, {}};
+    return sight_of(motion, 0.5, BodyType::Dynamic, epoch);
+  };
+  const Sight here = see(0, 0, 0, 0);
+  EXPECT_EQ(soonest_contact(here, see(3, 0, 1, 0), 0, kScreenSlack<double>), kNever);
+  EXPECT_EQ(soonest_contact(here, see(3, 1.001, -1, 0), 0, kScreenSlack<double>), kNever);
+  EXPECT_NEAR(soonest_contact(here, see(3, 0, -1, 0), 0, kScreenSlack<double>), 2, 1e-7);
+  EXPECT_EQ(soonest_contact(here, see(0.9, 0, -1, 0), 0, kScreenSlack<double>), 0);
+}
+
+TEST(Sight, AnInstantRoughlyLaterIsNotLaterThanThat) {
+  Random random(test::seed_of_run());
+  for (int i = 0; i < 100'000; ++i) {
+    const Instant from{static_cast<std::int64_t>(random.below(2'000'000)) - 1'000'000,
+                       random.below(std::numeric_limits<std::uint64_t>::max())};
+    const double seconds = random.decades(-18, 9);
+    const Instant later = roughly_later(from, seconds);
+    ASSERT_GE(later, from);
+    ASSERT_LE(later, *later_by(from, seconds, 0.0));
+    ASSERT_GE(difference<double>(later, from).hi, seconds * (1 - 1e-15) - 0x1p-62);
+  }
+  EXPECT_EQ(roughly_later(Instant{}, kNever), Instant::never());
+}
+
+}  // namespace
+}  // namespace stoss::engine
