@@ -124,6 +124,30 @@ TEST(DragWorld, TellsOneStoryWhateverTheTicksTheBroadPhaseAndAPauseInBytes) {
   }
 }
 
+TEST(DragWorld, TellsOneStoryAroundAPeriodUnderAThermostat) {
+  const auto gas = [](BroadPhaseKind kind) {
+    WorldOptions options = with_drag(0.5, {1, -2}, kind);
+    options.effects.thermostat = Thermostat{1, 0.5, 9};
+    options.effects.restitution = Restitution{0.9, 0.8, 1e-3, 1e-2};
+    options.period = {12, 0};
+    World world(options);
+    test::Random random(3);
+    std::vector<DiskSpec> disks;
+    for (int i = 0; i < 36; ++i) {
+      const Vector2 velocity(random.uniform(-1, 1), random.uniform(-1, 1));
+      disks.push_back(test::disk(kNoId, {2.0 * (i % 6), 1.8 * (i / 6) + 1}, velocity, 0.4));
+    }
+    const std::vector<WallSpec> walls = {test::wall(100, {0, 0}, {12, 0}),
+                                         test::wall(101, {3, 11.5}, {6, 12.5}, {0.2, 0})};
+    test::must_spawn(world, disks, walls);
+    return world;
+  };
+  World once = gas(BroadPhaseKind::Neighbours);
+  EXPECT_GT(run_for(once, 6).size(), 50U);
+  EXPECT_EQ(once.census().missed, 0U);
+  test::expect_one_story(gas, 6, 100, 3);
+}
+
 TEST(DragWorld, TellsOneStoryInFloatAndWithRoughDisks) {
   const auto gas = [](BroadPhaseKind kind) {
     WorldOptions options = with_drag(0.2, {0, 0}, kind);

@@ -133,6 +133,27 @@ TEST(GrowthWorld, TellsOneStoryWhateverTheTicksTheBroadPhaseAndAPauseInBytes) {
   }
 }
 
+TEST(GrowthWorld, TellsOneStoryAroundAPeriodUnderAThermostat) {
+  const auto gas = [](BroadPhaseKind kind) {
+    WorldOptions options = with_growth(0.02, kind);
+    options.effects.thermostat = Thermostat{0.5, 0.3, 9};
+    options.period = {12, 11};
+    World world(options);
+    test::Random random(3);
+    std::vector<DiskSpec> disks;
+    for (int i = 0; i < 36; ++i) {
+      const Vector2 velocity(random.uniform(-1, 1), random.uniform(-1, 1));
+      disks.push_back(test::disk(kNoId, {2.0 * (i % 6), 1.8 * (i / 6)}, velocity, 0.3));
+    }
+    test::must_spawn(world, disks);
+    return world;
+  };
+  World once = gas(BroadPhaseKind::Neighbours);
+  EXPECT_GT(run_for(once, 10).size(), 50U);
+  EXPECT_EQ(once.census().missed, 0U);
+  test::expect_one_story(gas, 10, 100, 5);
+}
+
 TEST(GrowthWorld, ThatDoesNotGrowIsThePlainWorld) {
   World plain = growing_gas({});
   World still = growing_gas(with_growth(0));
