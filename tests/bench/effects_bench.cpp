@@ -90,9 +90,9 @@ std::vector<Row> make_rows() {
       {"floor friction", with(slowed)},
       {"floor friction, restitution, rough",
        with([&](Effects& e) { slowed(e), lossy(e), rough(e); })},
-      {.name = "periodic", .is_periodic = true},
+      {.name = "periodic", .effects = {}, .is_periodic = true},
       {.name = "periodic, gravity", .effects = with(pull), .is_periodic = true},
-      {.name = "16 zones", .zones = 16},
+      {.name = "16 zones", .effects = {}, .zones = 16},
       {.name = "16 zones, floor friction", .effects = with(slowed), .zones = 16},
   };
 }

@@ -15,6 +15,8 @@
 namespace stoss::client {
 namespace {
 
+using CollisionOrder = EventOrder<engine::Collision>;
+
 std::vector<engine::Collision> collisions(std::uint64_t first, std::uint64_t count) {
   std::vector<engine::Collision> result(count);
   for (std::uint64_t i = 0; i < count; ++i) result[i].sequence = first + i;

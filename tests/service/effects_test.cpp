@@ -118,7 +118,7 @@ TEST_F(EffectCommands, ThatMakeNoSenseChangeNothing) {
   EXPECT_EQ(all.reply_to(1, 2).reject->field, "rough");
   EXPECT_EQ(all.reply_to(1, 3).reject->field, "restitution.coefficient");
   EXPECT_EQ(all.reply_to(1, 4).reject->field, "magnetism.strength");
-  for (const std::uint64_t number : {3, 4, 5, 6, 7}) {
+  for (const std::uint64_t number : {3U, 4U, 5U, 6U, 7U}) {
     EXPECT_EQ(all.code_of(1, number), Code::InvalidArgument) << number;
   }
   EXPECT_EQ(simulation->world().state_hash(), hash);
