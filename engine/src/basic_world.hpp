@@ -391,7 +391,10 @@ class BasicWorld final : public WorldCore {
   void lay_bare(Slot wall);
   bool same_vertex(const WallEnd& a, const WallEnd& b) const;
   void note_change(Slot slot, ChangeKind kind) {
-    if (!is_zone(slot)) changes_.note(at(slot).id, kind);
+    if constexpr (!Laws::kPlain) {
+      if (is_zone(slot)) return;
+    }
+    changes_.note(at(slot).id, kind);
   }
 
   // basic_world_queries.hpp

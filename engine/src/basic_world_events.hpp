@@ -123,9 +123,11 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
     predict(slot, /*changed=*/false);
     return true;
   }
-  if (is_zone(event.partner)) {
-    process_crossing(slot, event, sink);
-    return true;
+  if constexpr (!Laws::kPlain) {
+    if (is_zone(event.partner)) {
+      process_crossing(slot, event, sink);
+      return true;
+    }
   }
   const bool is_due = due && ((due->a == slot && due->b == event.partner) ||
                               (due->b == slot && due->a == event.partner));
@@ -232,9 +234,13 @@ bool BasicWorld<S, Laws>::is_about_to_meet(Slot slot) const {
   const Event<S>& next = queue_.event_of(slot);
   const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
   if (next.partner < 0 || hop(slot, now_, next.at) > tiny) return false;
-  if (!is_zone(next.partner)) return true;
-  const Event<S> meeting = next_but_for_zones(slot);
-  return meeting.partner >= 0 && hop(slot, now_, meeting.at) <= tiny;
+  if constexpr (!Laws::kPlain) {
+    if (is_zone(next.partner)) {
+      const Event<S> meeting = next_but_for_zones(slot);
+      return meeting.partner >= 0 && hop(slot, now_, meeting.at) <= tiny;
+    }
+  }
+  return true;
 }
 
 // Called after the contact is resolved and its bodies predicted: has one of them just come from

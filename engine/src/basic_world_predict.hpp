@@ -22,7 +22,9 @@ auto BasicWorld<S, Laws>::id_lookup() const {
 
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::interacts(Slot a, Slot b) const {
-  if (is_zone(a) || is_zone(b)) return is_zone_and_disk(a, b);
+  if constexpr (!Laws::kPlain) {
+    if (is_zone(a) || is_zone(b)) return is_zone_and_disk(a, b);
+  }
   return a != b && (at(a).is_dynamic() || at(b).is_dynamic());
 }
 
@@ -59,7 +61,9 @@ template <class S, class Laws>
 bool BasicWorld<S, Laws>::holds_prediction(Slot holder, Slot other) const {
   const Body<S, Laws>& h = at(holder);
   const Body<S, Laws>& o = at(other);
-  if (is_zone(holder) || is_zone(other)) return is_zone(other);
+  if constexpr (!Laws::kPlain) {
+    if (is_zone(holder) || is_zone(other)) return is_zone(other);
+  }
   if (h.is_dynamic() != o.is_dynamic()) return h.is_dynamic();
   return !(h.radius > S(kHolderRatioMax) * o.radius);
 }
@@ -219,7 +223,9 @@ auto BasicWorld<S, Laws>::contact_with(Slot a, Slot b, const Which& image) const
 
 template <class S, class Laws>
 std::optional<Event<S>> BasicWorld<S, Laws>::event_with(Slot holder, Slot partner) const {
-  if (is_zone(partner)) return zone_event_of(holder, partner);
+  if constexpr (!Laws::kPlain) {
+    if (is_zone(partner)) return zone_event_of(holder, partner);
+  }
   const std::optional<Contact> contact = contact_of(holder, partner);
   if (!contact) return std::nullopt;
   return event_of(*contact, partner);
@@ -306,8 +312,10 @@ bool BasicWorld<S, Laws>::may_meet_at(
     bend = horizon * (growth_of(slot) + growth_of(other)) * (1 + kScreenSlack<S>);
     if (!(bend < std::numeric_limits<double>::infinity())) return true;
   }
-  if (is_zone(slot) || is_zone(other)) {
-    return may_cross(slot, here, other, there, horizon, bend);
+  if constexpr (!Laws::kPlain) {
+    if (is_zone(slot) || is_zone(other)) {
+      return may_cross(slot, here, other, there, horizon, bend);
+    }
   }
   if (own.is_wall() || theirs.is_wall()) {
     const DoubleWord2<S>& edge = own.is_wall() ? shape(slot).edge : shape(other).edge;
@@ -392,7 +400,8 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
       for (const Slot other : neighbours_.of(slot)) look_at(other);
     } else {
       for_each_neighbour(slot, [&](Slot other) {
-        const bool holds = is_zone(other);  // a kinematic disk: its crossings
+        bool holds = false;
+        if constexpr (!Laws::kPlain) holds = is_zone(other);  // a kinematic disk: its crossings
         if (changed || holds) look_at_unlike(slot, other, changed, now, renewal, ahead);
       });
     }
@@ -579,7 +588,10 @@ double BasicWorld<S, Laws>::smallest_margin(Slot slot) const {
 /// Of a body that comes in. A zone's box is never renewed, and needs no room to move.
 template <class S, class Laws>
 double BasicWorld<S, Laws>::first_margin(Slot slot) const {
-  return is_zone(slot) ? 0 : static_cast<double>(at(slot).radius);
+  if constexpr (!Laws::kPlain) {
+    if (is_zone(slot)) return 0;
+  }
+  return static_cast<double>(at(slot).radius);
 }
 
 template <class S, class Laws>

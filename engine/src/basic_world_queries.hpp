@@ -52,13 +52,18 @@ BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {
 
 template <class S, class Laws>
 WallState BasicWorld<S, Laws>::wall_of(Slot slot) const {
-  const Motion<S>& motion = at(slot).motion;
-  return detail::shown_wall(at(slot).id,
-                            to_instant(now_),
-                            position_of(slot, now_),
-                            shape(slot).edge,
-                            motion.velocity,
-                            period_words());
+  const DoubleWord2<S>& velocity = at(slot).motion.velocity;
+  const DoubleWord2<S>& edge = shape(slot).edge;
+  const DoubleWord2<S> start = position_of(slot, now_);
+  if constexpr (Laws::kPlain) {
+    return {at(slot).id,
+            to_instant(now_),
+            detail::rounded(start),
+            detail::rounded(DoubleWord2<S>{start.x + edge.x, start.y + edge.y}),
+            detail::rounded(velocity)};
+  } else {
+    return detail::shown_wall(at(slot).id, to_instant(now_), start, edge, velocity, period_words());
+  }
 }
 
 template <class S, class Laws>

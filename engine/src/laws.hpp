@@ -31,7 +31,7 @@ namespace stoss::engine {
 enum class LawsKind { Plain, Contact, Growing, Accelerated, Dragged };
 
 /// The least that has all these effects, in a periodic world or an open one.
-constexpr LawsKind laws_for(const Effects& effects, bool is_periodic = false) {
+inline LawsKind laws_for(const Effects& effects, bool is_periodic = false) {
   if (effects == Effects{} && !is_periodic) return LawsKind::Plain;
   if (effects.growth) return LawsKind::Growing;
   if (effects.drag && effects.drag->rate > 0) return LawsKind::Dragged;

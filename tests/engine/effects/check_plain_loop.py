@@ -51,7 +51,7 @@ EFFECT_FILES = [
 ]
 SECTION = re.compile(r"^Relocation section '\.rela\.text(?:\.unlikely|\.hot)?\.(_Z[^']+)'")
 CALL = re.compile(r"R_\S+\s+\S+\s+(_Z[^\s+-]+)")
-EMPTY_SIZE = 5  # bytes; with no call in it, a function of that size returns and does nothing else
+EMPTY_SIZE = 6  # bytes; with no call in it, a function of that size only returns a constant
 
 
 def defined_in(object_file):
