@@ -12,7 +12,7 @@
 //   (2014) 191.
 // Deviation: c and D in two or three words where they cancel; float runs in double. The way out has
 //   a second word of t, from (4) once more where the first leads, unless it is very short.
-// Accuracy: t to 6 ulp, no missed and no false crossing: contact_time/rim_crossing_test.cpp.
+// Accuracy: t to 6 ulp, outwards to 16, none missed or false: contact_time/rim_crossing_test.cpp.
 // Preconditions: R > 0. NaN and infinity never yield a crossing.
 #pragma once
 
