@@ -47,7 +47,9 @@ def galton_board():
     # Twelve rows of pins, thirteen chutes. Every ball falls from its own height, a little off the
     # middle. The chutes are open below: a pile on moving disks has no exact rest.
     scene = Scene("galton-board")
-    scene.effects = {"gravity": gravity(-9.81), "restitution": {"coefficient": 0.4}}
+    scene.effects = {"gravity": gravity(-9.81),
+                     "restitution": {"coefficient": 0.4, "contact_duration": 1e-4,
+                                     "rest_speed": 0.02}}
     rng = random.Random(1889)
     pitch, pin, ball, rows = 0.1, 0.01, 0.015, 12
     for row in range(rows):

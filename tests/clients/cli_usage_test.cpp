@@ -47,7 +47,7 @@ TEST(CliUsage, FeaturesAreListedWithoutAWorld) {
   const Finished object = stoss({"features", "--json"});
   EXPECT_EQ(object.status, 0) << object.error;
   for (const engine::EffectInfo& effect : engine::known_effects()) {
-    EXPECT_NE(text.out.find("\n" + std::string(effect.name)), std::string::npos) << effect.name;
+    EXPECT_NE(text.out.find(' ' + std::string(effect.name) + ' '), std::string::npos);
     EXPECT_NE(object.out.find("\"name\":\"" + std::string(effect.name) + '"'), std::string::npos);
   }
   for (const engine::Refusal& refusal : engine::refused_combinations()) {

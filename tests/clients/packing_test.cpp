@@ -52,7 +52,7 @@ TEST(Packing, OfAHundredDisksIsSavedWithoutOverlapAndRuns) {
   const Finished made = stoss({"simulate",
                                std::string(STOSS_SCENE_DIR) + "/packing.json",
                                "--max-collisions",
-                               "200000",
+                               "250000",
                                "--save-scene",
                                path});
   ASSERT_EQ(made.status, 0) << made.error;

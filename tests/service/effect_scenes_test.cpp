@@ -85,10 +85,10 @@ TEST(EffectScenes, TheHourglassRuns) {
     return count;
   };
   EXPECT_EQ(below(), 0);
-  run(world, 3);
+  run(world, 8);
   const int first = below();
   EXPECT_GT(first, 3);
-  run(world, 6);
+  run(world, 15);
   EXPECT_GT(below(), first);
   for_each_dynamic(world, [](const engine::BodyState& s) {
     EXPECT_LT(std::abs(s.position.x()), 2);
