@@ -302,7 +302,7 @@ bool write_into(const std::string& path, const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  int rounds = 41;
+  int rounds = 7;  // later the gas with friction and losses comes to rest
   int columns = 32;
   std::string file;
   for (int i = 1; i + 1 < argc; i += 2) {
