@@ -45,12 +45,15 @@ TEST(DaemonProcess, RefusesASceneByNameAndReason) {
   EXPECT_EQ(overlapping.wait(), 65);
   EXPECT_NE(overlapping.log().find("OVERLAP"), std::string::npos) << overlapping.log();
 
-  const std::string heavy = temporary_file("heavy.json", R"({"effects": {"drag": {"rate": 1}}})");
-  Process falling(stossd(kDomain, {"--scene", heavy}));
+  const std::string curved = temporary_file(
+      "curved.json",
+      R"({"effects": {"gravity": {"acceleration": {"y": -1}}, "floor_friction": {"deceleration": 1}}})");
+  Process falling(stossd(kDomain, {"--scene", curved}));
   EXPECT_EQ(falling.wait(), 65);
-  EXPECT_NE(falling.log().find("UNIMPLEMENTED: effects.drag"), std::string::npos) << falling.log();
+  EXPECT_NE(falling.log().find("UNIMPLEMENTED: effects.floor_friction"), std::string::npos)
+      << falling.log();
   unlink(overlap.c_str());
-  unlink(heavy.c_str());
+  unlink(curved.c_str());
 }
 
 TEST(DaemonProcess, TakesOptionsFromAFile) {
