@@ -141,21 +141,8 @@ class BasicWorld final : public WorldCore {
   struct Nothing {};
   /// What a body has before it: bounds of the contacts that it holds with disks, in seconds from
   /// now, and its first event with a wall.
-  struct Foresight {
-    double first = std::numeric_limits<double>::infinity();
-    double second = std::numeric_limits<double>::infinity();
-    Slot partner = -1;  ///< of the first
+  struct Foresight : SoonestTwo {
     std::optional<Event<S>> exact;
-
-    void note(Slot other, double soonest) {
-      if (soonest < first) {
-        second = first;
-        first = soonest;
-        partner = other;
-      } else if (soonest < second) {
-        second = soonest;
-      }
-    }
   };
 
   /// Names the offending element of a command in a refusal.
@@ -232,7 +219,7 @@ class BasicWorld final : public WorldCore {
   Vector2 normal_to_image(Slot disk, Slot wall, const Image& image) const;
   void renew_cage(Slot slot, Role role, double margin);
   double next_margin(Slot slot) const;
-  const Neighbours::Anchor& anchor_of(Slot slot) const;
+  Neighbours::Anchor anchor_of(Slot slot) const;
   double margin_of(Slot slot) const;
   bool has_no_place(Slot slot) const;
   Vector2 shown(const DoubleWord2<S>& position) const;
@@ -467,8 +454,8 @@ class BasicWorld final : public WorldCore {
   EventQueue<S> queue_;
   Time<S> crowded_instant_ = Time<S>::never();  ///< of the last collision
   std::uint64_t crowd_ = 0;                     ///< collisions at that instant since a command
-  std::optional<Contact>
-      due_;  ///< of the event that was sharpened last, until another is processed
+  Contact due_{};         ///< of the event that was sharpened last
+  bool has_due_ = false;  ///< until another event is processed
 
   // The bodies' digests, brought up to date for those that changed when the hash is asked for.
   struct Digests {

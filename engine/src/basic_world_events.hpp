@@ -28,7 +28,7 @@ Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
                   .reason = "the instant is in the past: the world has moved on"};
   }
   AdvanceReport report;
-  due_.reset();
+  has_due_ = false;
   const std::uint64_t collisions_before = counters_.collisions;
   const Time<S> end = std::max(now_, from_instant<Time<S>>(until));
   for (Slot slot = next_slot(); slot >= 0 && queue_.event_of(slot).at <= end; slot = next_slot()) {
@@ -99,7 +99,7 @@ bool BasicWorld<S, Laws>::is_stale(const Event<S>& event) const {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   const Event<S> event = queue_.event_of(slot);
-  const std::optional<Contact> due = std::exchange(due_, std::nullopt);
+  const bool has_due = std::exchange(has_due_, false);
   if (event.kind == EventKind::NeighbourRenewal) {
     ++counters_.renewals;
     if (has_no_place(slot)) return false;
@@ -129,10 +129,12 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
       return true;
     }
   }
-  const bool is_due = due && ((due->a == slot && due->b == event.partner) ||
-                              (due->b == slot && due->a == event.partner));
-  const std::optional<Contact> contact = is_due ? due : contact_of(slot, event.partner);
-  check(contact.has_value(), "a scheduled contact is no contact of the stored motions");
+  const bool is_due = has_due && ((due_.a == slot && due_.b == event.partner) ||
+                                  (due_.b == slot && due_.a == event.partner));
+  std::optional<Contact> found;
+  if (!is_due) found = contact_of(slot, event.partner);
+  const Contact* const contact = is_due ? &due_ : (found ? &*found : nullptr);
+  check(contact != nullptr, "a scheduled contact is no contact of the stored motions");
   check(event.at >= now_, "a contact was scheduled in the past");
   if (has_stalled(event.at) || is_squeezed(*contact)) return false;
   count_towards_stall();

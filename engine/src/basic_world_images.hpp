@@ -181,7 +181,7 @@ double BasicWorld<S, Laws>::next_margin(Slot slot) const {
 }
 
 template <class S, class Laws>
-const Neighbours::Anchor& BasicWorld<S, Laws>::anchor_of(Slot slot) const {
+Neighbours::Anchor BasicWorld<S, Laws>::anchor_of(Slot slot) const {
   if constexpr (!Laws::kPlain) {
     if (is_periodic()) return space_.cage(slot).anchor;
   }

@@ -32,6 +32,10 @@ bool BasicWorld<S, Laws>::interacts(Slot a, Slot b) const {
 // slanted wall, whose box is wide, disks are told apart by their distance from its line.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::may_become_close(Slot a, Slot b) const {
+  if constexpr (kHasSights<Laws>) {  // the usual pair, known from lines that are at hand
+    const auto& sights = sights_.of_slot;
+    if (sights[index(a)].unlike == 0 && sights[index(b)].unlike == 0) return a != b;
+  }
   if (!interacts(a, b)) return false;
   if (is_periodic()) return true;
   if (at(a).is_wall()) return !is_far_from_line(a, neighbours_.box_of(b));
@@ -45,7 +49,7 @@ bool BasicWorld<S, Laws>::is_far_from_line(Slot wall, const Aabb& box) const {
   const DoubleWord2<S>& edge = shape(wall).edge;
   const auto ex = static_cast<double>(edge.x.hi);
   const auto ey = static_cast<double>(edge.y.hi);
-  const auto& anchor = neighbours_.anchor(wall);
+  const auto anchor = neighbours_.anchor(wall);
   const double margin = neighbours_.margin(wall);
   const double x = 0.5 * box.low_x + 0.5 * box.high_x - (anchor.x + anchor.x_low);
   const double y = 0.5 * box.low_y + 0.5 * box.high_y - (anchor.y + anchor.y_low);
@@ -249,7 +253,7 @@ Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const
   const double growth = growth_of(slot);
   if (here.vx == 0 && here.vy == 0 && pull == 0 && growth == 0) return event;
   constexpr double kEarly = 1 - kScreenSlack<S>;
-  const Neighbours::Anchor& anchor = anchor_of(slot);
+  const Neighbours::Anchor anchor = anchor_of(slot);
   double margin = margin_of(slot) * kEarly;
   if constexpr (Laws::kGrows) margin -= radius_now(slot) - at(slot).boxed_radius;
   const double moved_x = (here.x - anchor.x) + (here.x_low - anchor.x_low);
@@ -382,22 +386,21 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
   if constexpr (kHasSights<Laws>) {
     constexpr double kNear = 1e-9;  // s; sooner, a guess would not be below the resolution of time
     const double now = time_of_sights();
-    const Sight own = sights_.of_slot[index(slot)];
-    const double smallest_held = own.radius * (1.0 / kHolderRatioMax);
+    const Sight& own = sights_.of_slot[index(slot)];
     const double renewal = time_to_renewal(slot, own, now);
     Foresight ahead;
     if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
-    const auto look_at = [&](Slot other) {
-      const Sight& there = sights_.of_slot[index(other)];
-      if (there.type == BodyType::Dynamic && there.radius >= smallest_held) {
-        ahead.note(other, soonest_contact(own, there, now, kScreenSlack<S>));
-      } else {
-        look_at_unlike(slot, other, changed, now, renewal, ahead);
+    if (at(slot).is_dynamic()) {
+      const double smallest_held = own.radius * (1.0 / kHolderRatioMax);
+      const auto list = neighbours_.of(slot);
+      static_cast<SoonestTwo&>(ahead) =
+          soonest_contacts(slot, list, sights_.of_slot, smallest_held, now, kScreenSlack<S>);
+      if (ahead.has_others) {
+        for (const Slot other : list) {
+          if (!is_passed_over(sights_.of_slot[index(other)], smallest_held)) continue;
+          look_at_unlike(slot, other, changed, now, renewal, ahead);
+        }
       }
-    };
-    if (own.type == BodyType::Dynamic) {
-      prefetch_sights(slot);
-      for (const Slot other : neighbours_.of(slot)) look_at(other);
     } else {
       for_each_neighbour(slot, [&](Slot other) {
         bool holds = false;
@@ -474,7 +477,7 @@ void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double ren
 template <class S, class Laws>
 double BasicWorld<S, Laws>::time_to_renewal(Slot slot, const Sight& own, double now) const {
   constexpr double kEarly = 1 - 1e-6;
-  const auto& anchor = neighbours_.anchor(slot);
+  const auto anchor = neighbours_.anchor(slot);
   const double margin = neighbours_.margin(slot) * kEarly;
   if (!(own.off < 1e-6 * margin)) {  // far from the origin
     const Event<S> event = renewal_event(slot, glance_of(slot));
@@ -518,17 +521,19 @@ void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::sharpen(Slot slot) {
   const Event<S> guess = queue_.event_of(slot);
-  prefetch(&at(slot).motion.since);
-  prefetch(&at(guess.partner).motion.since);
-  neighbours_.prefetch_entry(slot);
-  neighbours_.prefetch_entry(guess.partner);
+  for (const Slot own : {slot, guess.partner}) {
+    prefetch_all(at(own));
+    neighbours_.prefetch_place(own);
+  }
   if (is_stale(guess)) return predict(slot, /*changed=*/false);
   const std::optional<Contact> contact = contact_of(slot, guess.partner);
   const auto event = contact ? event_of(*contact, guess.partner) : std::nullopt;
   if (!event || !(rough_seconds(event->at, guess.at) < static_cast<double>(guess.clear_for))) {
     return predict_closely(slot, /*changed=*/false);
   }
-  due_ = contact;
+  for (const Slot own : {slot, guess.partner}) neighbours_.prefetch_list(own);
+  due_ = *contact;
+  has_due_ = true;
   queue_.set(slot, *event, id_lookup());
 }
 

@@ -21,8 +21,9 @@ inline BodyType type_of(BodyKind kind) { return static_cast<BodyType>(kind); }
 inline BodyKind kind_of(BodyType type) { return static_cast<BodyKind>(type); }
 
 /// `Laws`: one of laws.hpp, whose part of a body is empty unless it needs one.
+/// Whole cache lines, for bodies are met in no order.
 template <class S, class Laws>
-struct Body : Laws::template BodyPart<S> {
+struct alignas(64) Body : Laws::template BodyPart<S> {
   Motion<S> motion;           ///< of the centre; of a wall's start
   S radius{};                 ///< m; 0 for a wall
   S mass{};                   ///< kg; 0 for a wall

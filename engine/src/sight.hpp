@@ -17,11 +17,14 @@
 // Accuracy: (2) is below the kernel's time by 1e-9 of itself (float: 3e-5) and a little, and never
 //   above: tests/engine/sight_test.cpp, tests/engine/world/properties_test.cpp.
 
+#include "lanes.hpp"
 #include "screen.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace stoss::engine {
 
@@ -33,7 +36,7 @@ struct alignas(64) Sight {
   double since = 0;   ///< s after the epoch
   double radius = 0;  ///< m
   double off = 0;     ///< m; by how much (1) may be wrong until the epoch ends
-  BodyType type = BodyType::Dynamic;
+  double unlike = 0;  ///< 0: a dynamic disk; 1: anything else
 };
 
 /// The instant that sights count from, and how long they may.
@@ -61,7 +64,7 @@ Sight sight_of(const Motion<S>& motion, const S& radius, BodyType type, const Ep
   sight.vy = static_cast<double>(motion.velocity.y.hi) + static_cast<double>(motion.velocity.y.lo);
   sight.since = rough_seconds(motion.since, epoch.begin);
   sight.radius = static_cast<double>(radius);
-  sight.type = type;
+  sight.unlike = type == BodyType::Dynamic ? 0 : 1;
   constexpr double kRounding = 1e-15;  // a few units in the last place of a coordinate
   const double speed = std::abs(sight.vx) + std::abs(sight.vy);
   const double way = speed * (std::abs(sight.since) + epoch.length);
@@ -91,28 +94,89 @@ inline float safe_difference(double later, double earlier) {
   return less > 0 ? static_cast<float>(less) : 0.0F;
 }
 
-/// Seconds after `now` (after the epoch) before which two disks certainly do not meet; infinity if
-/// they never do. `slack`: kScreenSlack of the arithmetic.
-[[gnu::always_inline]] inline double soonest_contact(const Sight& a,
-                                                     const Sight& b,
-                                                     double now,
-                                                     double slack) {
-  const double vx = b.vx - a.vx;
-  const double vy = b.vy - a.vy;
-  const double px = (b.x + b.vx * (now - b.since)) - (a.x + a.vx * (now - a.since));
-  const double py = (b.y + b.vy * (now - b.since)) - (a.y + a.vy * (now - a.since));
-  const double reach = a.radius + b.radius;
-  const double off = (a.off + b.off) + slack * (std::abs(px) + std::abs(py) + reach);
-  const double speed = std::abs(vx) + std::abs(vy);
-  const double approach = off * speed - (px * vx + py * vy);
-  const double near_reach = reach + off;
-  const double least = std::max(0.0, std::abs(px * vy - py * vx) - off * speed);
-  const double disc = (vx * vx + vy * vy) * near_reach * near_reach * (1 + slack) - least * least;
-  if (approach < 0 || disc < 0) return std::numeric_limits<double>::infinity();
-  const double gap2 = (px * px + py * py - near_reach * near_reach) -
-                      off * (std::abs(px) + std::abs(py) + near_reach);
-  if (!(gap2 > 0)) return 0;  // NaN from overflow included
-  return gap2 / ((approach + std::sqrt(disc)) * (1 + slack));
+/// What (2) needs of a body, at the present.
+struct Present {
+  double x, y, vx, vy, radius, off;
+};
+[[gnu::always_inline]] inline Present present_of(const Sight& sight, double now) {
+  return {sight.x + sight.vx * (now - sight.since),
+          sight.y + sight.vy * (now - sight.since),
+          sight.vx,
+          sight.vy,
+          sight.radius,
+          sight.off};
 }
+
+/// Of one sight (V = double) or of four.
+template <class V>
+struct SightsOf {
+  V x, y, vx, vy, since, radius, off;
+};
+
+/// Equation (2): seconds after `now` (after the epoch) before which two disks certainly do not
+/// meet; infinity if they never do. `slack`: kScreenSlack of the arithmetic.
+template <class V>
+[[gnu::always_inline]] inline V soonest_contact(const Present& a,
+                                                const SightsOf<V>& b,
+                                                double now,
+                                                double slack) {
+  using lanes::magnitude;
+  const V vx = b.vx - a.vx;
+  const V vy = b.vy - a.vy;
+  const V px = (b.x + b.vx * (now - b.since)) - a.x;
+  const V py = (b.y + b.vy * (now - b.since)) - a.y;
+  const V reach = a.radius + b.radius;
+  const V off = (a.off + b.off) + slack * (magnitude(px) + magnitude(py) + reach);
+  const V speed = magnitude(vx) + magnitude(vy);
+  const V approach = off * speed - (px * vx + py * vy);
+  const V near_reach = reach + off;
+  const V moment = magnitude(py * vx - px * vy) - off * speed;
+  const V least = moment > 0 ? moment : V{};
+  const V disc = (vx * vx + vy * vy) * near_reach * near_reach * (1 + slack) - least * least;
+  const V gap2 = (px * px + py * py - near_reach * near_reach) -
+                 off * (magnitude(px) + magnitude(py) + near_reach);
+  const V soonest = gap2 / ((approach + lanes::root(disc)) * (1 + slack));
+  const V never = V{} + std::numeric_limits<double>::infinity();
+  const V if_any = gap2 > 0 ? soonest : V{};  // at once also for NaN, from overflow
+  return ((approach < 0) | (disc < 0)) ? never : if_any;
+}
+
+inline double soonest_contact(const Sight& a, const Sight& b, double now, double slack) {
+  return soonest_contact<double>(
+      present_of(a, now), {b.x, b.y, b.vx, b.vy, b.since, b.radius, b.off}, now, slack);
+}
+
+/// What a body has before it among others: bounds of its contacts, s from now.
+struct SoonestTwo {
+  double first = std::numeric_limits<double>::infinity();
+  double second = std::numeric_limits<double>::infinity();
+  Slot partner = -1;          ///< of the first
+  bool has_others = false;  ///< there are some that were not looked at
+
+  void note(Slot other, double soonest) {
+    if (soonest < first) {
+      second = first;
+      first = soonest;
+      partner = other;
+    } else if (soonest < second) {
+      second = soonest;
+    }
+  }
+};
+
+/// Is this one for the bodies that soonest_contacts() passes over?
+inline bool is_passed_over(const Sight& sight, double radius_min) {
+  return sight.unlike != 0 || !(sight.radius >= radius_min);
+}
+
+/// Of the dynamic disks in a list with at least this radius, the soonest two contacts with the body
+/// of this slot, by soonest_contact(). REQUIRES: `list` is in memory up to the next multiple of
+/// four, and what stands there are slots of `sights`, whichever.
+SoonestTwo soonest_contacts(Slot slot,
+                            std::span<const Slot> list,
+                            const std::vector<Sight>& sights,
+                            double radius_min,
+                            double now,
+                            double slack);
 
 }  // namespace stoss::engine

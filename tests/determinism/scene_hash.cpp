@@ -32,6 +32,7 @@ std::unique_ptr<WorldCore> make_effects_core<long double>(const WorldOptions&) {
 #include "effects.cpp"
 #include "features.cpp"
 #include "make_core.cpp"
+#include "sight.cpp"
 #include "world.cpp"
 #include "world_double.cpp"
 #include "world_double_effects.cpp"

@@ -16,27 +16,33 @@ namespace {
 
 using test::Random;
 
-Aabb square(double x, double y, double half) { return grown({x, y, x, y}, half); }
+Aabb square(double x, double y, double half) { return {x - half, y - half, x + half, y + half}; }
+
+struct Item {
+  Aabb tight;
+  double margin = 0;
+  Aabb box() const { return grown(tight, margin); }
+};
 
 /// Anywhere within nine decades, most of them in a heap; of any size.
-Aabb random_square(Random& random) {
+Item random_item(Random& random) {
   const bool lone = random.one_in(8);
   const double x = lone ? random.either_sign(random.decades(-3, 9)) : random.uniform(-20, 20);
   const double y = lone ? random.either_sign(random.decades(-3, 9)) : random.uniform(-20, 20);
-  return square(x, y, random.decades(-4, 2));
+  return {square(x, y, random.decades(-4, 2)), random.one_in(4) ? 0 : random.decades(-4, 2)};
 }
 
 std::vector<std::int32_t> found_in(const BoxGrid& grid, const Aabb& box) {
-  std::vector<std::int32_t> found;
-  grid.query(box, [&](std::int32_t item) { found.push_back(item); });
+  const auto span = grid.find(box);
+  std::vector<std::int32_t> found(span.begin(), span.end());
   std::sort(found.begin(), found.end());
   return found;
 }
 
-std::vector<std::int32_t> found_slowly(const std::map<std::int32_t, Aabb>& boxes, const Aabb& box) {
+std::vector<std::int32_t> found_slowly(const std::map<std::int32_t, Item>& items, const Aabb& box) {
   std::vector<std::int32_t> found;
-  for (const auto& [item, other] : boxes) {
-    if (overlaps(other, box)) found.push_back(item);
+  for (const auto& [number, item] : items) {
+    if (overlaps(item.box(), box)) found.push_back(number);
   }
   return found;
 }
@@ -44,21 +50,22 @@ std::vector<std::int32_t> found_slowly(const std::map<std::int32_t, Aabb>& boxes
 TEST(BoxGrid, FindsEveryOverlapAndNothingElseUnderRandomWork) {
   Random random(test::seed_of_run());
   BoxGrid grid;
-  std::map<std::int32_t, Aabb> boxes;
+  std::map<std::int32_t, Item> items;
   EXPECT_TRUE(found_in(grid, {-1, -1, 1, 1}).empty());
   for (int i = 0; i < 20'000; ++i) {
-    const auto item = static_cast<std::int32_t>(random.below(300));
-    ASSERT_EQ(grid.contains(item), boxes.contains(item));
-    if (boxes.contains(item)) {
-      grid.remove(item);
-      boxes.erase(item);
+    const auto number = static_cast<std::int32_t>(random.below(300));
+    ASSERT_EQ(grid.contains(number), items.contains(number));
+    if (items.contains(number)) {
+      grid.remove(number);
+      items.erase(number);
     }
     if (!random.one_in(3)) {
-      boxes[item] = random_square(random);
-      grid.insert(item, boxes[item]);
+      items[number] = random_item(random);
+      grid.reserve(number);
+      grid.insert(number, items[number].tight, items[number].margin);
     }
-    const Aabb box = random.one_in(20) ? Aabb{-1e12, -1e12, 1e12, 1e12} : random_square(random);
-    ASSERT_EQ(found_in(grid, box), found_slowly(boxes, box));
+    const Aabb box = random.one_in(20) ? square(0, 0, 1e12) : random_item(random).tight;
+    ASSERT_EQ(found_in(grid, box), found_slowly(items, box));
   }
 }
 
@@ -66,10 +73,12 @@ TEST(BoxGrid, FindsBoxesThatOnlyTouch) {
   Random random(test::seed_of_run());
   for (int i = 0; i < 20'000; ++i) {
     BoxGrid grid;
+    grid.reserve(0);
     const double half = random.decades(-6, 6);
     const double x = random.either_sign(random.decades(-6, 6)) * half;
-    const Aabb box = square(x, 0, half);
-    grid.insert(0, box);
+    const Aabb tight = square(x, 0, half);
+    grid.insert(0, tight, half);
+    const Aabb box = grown(tight, half);
     const double other = random.decades(-6, 6) * half;
     const Aabb beside{box.high_x, -other, box.high_x + 2 * other, other};
     ASSERT_EQ(found_in(grid, beside).size(), 1U);
@@ -80,9 +89,10 @@ TEST(BoxGrid, FindsBoxesThatOnlyTouch) {
 
 TEST(BoxGrid, WorksAtTheEndsOfTheRange) {
   BoxGrid grid;
-  grid.insert(0, square(1e150, -1e150, 1e-150));
-  grid.insert(1, square(0, 0, 1e-150));
-  grid.insert(2, square(-1e150, 1e150, 1e150));
+  grid.reserve(2);
+  grid.insert(0, square(1e150, -1e150, 1e-150), 0);
+  grid.insert(1, square(0, 0, 1e-150), 0);
+  grid.insert(2, square(-1e150, 1e150, 1e150), 0);
   EXPECT_EQ(found_in(grid, square(1e150, -1e150, 1)), (std::vector<std::int32_t>{0}));
   EXPECT_EQ(found_in(grid, square(1e-150, 0, 1e-150)), (std::vector<std::int32_t>{1, 2}));
 }

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace stoss::engine {
 namespace {
@@ -79,6 +81,46 @@ TEST(Sight, SeesThatDisksRecedeOrPassBy) {
   EXPECT_EQ(soonest_contact(here, see(3, 1.001, -1, 0), 0, kScreenSlack<double>), kNever);
   EXPECT_NEAR(soonest_contact(here, see(3, 0, -1, 0), 0, kScreenSlack<double>), 2, 1e-7);
   EXPECT_EQ(soonest_contact(here, see(0.9, 0, -1, 0), 0, kScreenSlack<double>), 0);
+}
+
+TEST(Sight, FourAtATimeAreTheSameAsOneByOne) {
+  Random random(test::seed_of_run());
+  const Epoch<double> epoch{{}, 8};
+  std::vector<Sight> sights;
+  for (int i = 0; i < 200; ++i) {
+    const auto type = random.one_in(8) ? BodyType::Static : BodyType::Dynamic;
+    const double radius = random.decades(-3, 0);
+    sights.push_back(sight_of(random_motion(random, {}, 0, 1), radius, type, epoch));
+  }
+  constexpr double kNow = 5;
+  constexpr double kRadiusMin = 0.01;
+  for (int i = 0; i < 5'000; ++i) {
+    const auto slot = static_cast<Slot>(random.below(sights.size()));
+    std::vector<Slot> room(32);  // beyond the list, too, are slots
+    for (Slot& other : room) other = static_cast<Slot>(random.below(sights.size()));
+    const std::span<const Slot> list(room.data(), random.below(30));
+    SoonestTwo expected;
+    for (const Slot other : list) {
+      const Sight& sight = sights[static_cast<std::size_t>(other)];
+      if (is_passed_over(sight, kRadiusMin)) {
+        expected.has_others = true;
+      } else {
+        expected.note(other,
+                      soonest_contact(sights[static_cast<std::size_t>(slot)],
+                                      sight,
+                                      kNow,
+                                      kScreenSlack<double>));
+      }
+    }
+    const auto found =
+        soonest_contacts(slot, list, sights, kRadiusMin, kNow, kScreenSlack<double>);
+    ASSERT_EQ(found.first, expected.first);
+    ASSERT_EQ(found.second, expected.second);
+    ASSERT_EQ(found.has_others, expected.has_others);
+    if (expected.first < expected.second) {
+      ASSERT_EQ(found.partner, expected.partner);
+    }
+  }
 }
 
 TEST(Sight, AnInstantRoughlyLaterIsNotLaterThanThat) {

@@ -2,7 +2,8 @@
 #pragma once
 
 // Many short lists of slots in one piece of memory: room for 8, 16, 32, ... each, given back when a
-// list grows out of it and given out again. A warm event loop asks for no memory.
+// list grows out of it and given out again. A warm event loop asks for no memory. Room that a list
+// does not fill holds items that some list held once, or 0.
 
 #include <array>
 #include <cstddef>
@@ -15,8 +16,8 @@ namespace stoss::engine {
 /// A list in a pool; empty and without room at first.
 struct PooledList {
   std::uint32_t offset = 0;
-  std::uint32_t size = 0;
-  std::int32_t room_class = -1;  ///< room for kLeastRoom << room_class; -1: none
+  std::uint32_t size : 27 = 0;
+  std::uint32_t room_class : 5 = 0;  ///< room for 4 << room_class; 0: none
 };
 
 class ListPool {
@@ -26,15 +27,18 @@ class ListPool {
   }
 
   void push(PooledList& list, std::int32_t item) {
-    if (list.size == room(list)) grow(list, list.size + 1);
-    memory_[list.offset + list.size++] = item;
+    if (list.size == room(list)) grow(list, list.size + std::size_t{1});
+    memory_[list.offset + list.size] = item;
+    list.size = (list.size + 1) & kSizeMax;
   }
 
   /// Takes one item out, if it is there; the order changes.
   void erase(PooledList& list, std::int32_t item) {
-    for (std::uint32_t i = list.offset; i < list.offset + list.size; ++i) {
+    const std::uint32_t last = list.offset + list.size - 1;
+    for (std::uint32_t i = list.offset; i != last + 1; ++i) {
       if (memory_[i] != item) continue;
-      memory_[i] = memory_[list.offset + --list.size];
+      memory_[i] = memory_[last];
+      list.size = (list.size - 1) & kSizeMax;
       return;
     }
   }
@@ -42,25 +46,27 @@ class ListPool {
   void assign(PooledList& list, std::span<const std::int32_t> items) {
     list.size = 0;
     if (items.size() > room(list)) grow(list, items.size());
-    for (const std::int32_t item : items) memory_[list.offset + list.size++] = item;
+    std::uint32_t to = list.offset;
+    for (const std::int32_t item : items) memory_[to++] = item;
+    list.size = static_cast<std::uint32_t>(items.size()) & kSizeMax;
   }
 
   void release(PooledList& list) {
-    if (list.room_class >= 0) free_[index(list.room_class)].push_back(list.offset);
+    if (list.room_class > 0) free_[list.room_class].push_back(list.offset);
     list = PooledList{};
   }
 
  private:
   static constexpr std::size_t kLeastRoom = 8;
+  static constexpr std::uint32_t kSizeMax = (std::uint32_t{1} << 27) - 1;
 
-  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   static std::size_t room(const PooledList& list) {
-    return list.room_class < 0 ? 0 : kLeastRoom << list.room_class;
+    return list.room_class == 0 ? 0 : kLeastRoom / 2 << list.room_class;
   }
   void grow(PooledList& list, std::size_t wanted);
 
   std::vector<std::int32_t> memory_;
-  std::array<std::vector<std::uint32_t>, 29> free_;  // by class
+  std::array<std::vector<std::uint32_t>, 32> free_;  // by class
 };
 
 }  // namespace stoss::engine

@@ -6,9 +6,9 @@
 namespace stoss::engine {
 
 void ListPool::grow(PooledList& list, std::size_t wanted) {
-  PooledList larger{0, list.size, std::max(list.room_class, 0)};
-  while (room(larger) < wanted) ++larger.room_class;
-  auto& free = free_[index(larger.room_class)];
+  PooledList larger{0, list.size, list.room_class};
+  while (room(larger) < wanted) larger.room_class = (larger.room_class + 1) & 31;
+  auto& free = free_[larger.room_class];
   if (free.empty()) {
     larger.offset = static_cast<std::uint32_t>(memory_.size());
     memory_.resize(memory_.size() + room(larger));
@@ -21,43 +21,33 @@ void ListPool::grow(PooledList& list, std::size_t wanted) {
   list = larger;
 }
 
-// Marks come in pairs of numbers that were never used before.
-std::uint32_t Neighbours::next_stamp() {
-  stamp_ += 2;
-  if (stamp_ < 2) {  // wrapped: old marks must not look new
-    for (Entry& e : entries_) e.mark = 0;
-    stamp_ = 2;
-  }
-  return stamp_;
-}
-
-// Makes found_ the neighbours of `slot` in place of before_, in all lists.
+// Makes found_ the neighbours of `slot` in place of before_, in all lists. No mark is left.
 void Neighbours::replace_neighbours(Slot slot) {
-  Entry& entry = entries_[index(slot)];
-  const std::uint32_t was_neighbour = next_stamp();
-  const std::uint32_t still_neighbour = was_neighbour + 1;
-  for (const Slot old : before_) entries_[index(old)].mark = was_neighbour;
+  Place& own = grid_.place(slot);
+  for (const Slot old : before_) grid_.place(old).is_marked = true;
   for (const Slot other : found_) {
-    Entry& e = entries_[index(other)];
-    if (e.keeps_list()) {
+    Place& place = grid_.place(other);
+    if (place.keeps_list()) {
       // Of a body without a list, before_ may hold more than its neighbours.
-      if (e.mark == was_neighbour && !entry.keeps_list()) pool_.erase(e.list, slot);
-      if (e.mark != was_neighbour || !entry.keeps_list()) pool_.push(e.list, slot);
+      if (place.is_marked && !own.keeps_list()) pool_.erase(place.list, slot);
+      if (!place.is_marked || !own.keeps_list()) pool_.push(place.list, slot);
     }
-    e.mark = still_neighbour;
+    place.is_marked = false;
   }
   for (const Slot old : before_) {
-    Entry& e = entries_[index(old)];
-    if (e.mark == was_neighbour && e.keeps_list()) pool_.erase(e.list, slot);
+    Place& place = grid_.place(old);
+    if (!place.is_marked) continue;
+    place.is_marked = false;
+    if (place.keeps_list()) pool_.erase(place.list, slot);
   }
-  if (entry.keeps_list()) pool_.assign(entry.list, found_);
+  if (own.keeps_list()) pool_.assign(own.list, found_);
 }
 
 // Takes a body whose box is out from all lists.
 void Neighbours::forget(Slot slot) {
   found_.clear();
   replace_neighbours(slot);
-  pool_.release(entries_[index(slot)].list);
+  pool_.release(grid_.place(slot).list);
 }
 
 }  // namespace stoss::engine

@@ -25,6 +25,7 @@
 #include "broad_phase/aabb_tree.hpp"
 #include "broad_phase/box_grid.hpp"
 #include "broad_phase/list_pool.hpp"
+#include "broad_phase/place.hpp"
 #include "prefetch.hpp"
 #include "screen.hpp"
 
@@ -32,12 +33,11 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace stoss::engine {
 
-/// What a body is to the broad phase.
-enum class Role : std::uint8_t { Wall, FixedDisk, DynamicDisk };
 /// The copies of a box to look for: in open space itself.
 struct NoCopies {
   template <class Visit>
@@ -57,14 +57,20 @@ class Neighbours {
   };
 
   /// REQUIRES: of a dynamic disk.
-  std::span<const Slot> of(Slot slot) const { return pool_.items(entries_[index(slot)].list); }
+  std::span<const Slot> of(Slot slot) const { return pool_.items(grid_.place(slot).list); }
   /// Asks for what of() and anchor() will read.
-  void prefetch_entry(Slot slot) const { prefetch(&entries_[index(slot)]); }
-  double margin(Slot slot) const { return entries_[index(slot)].margin; }
-  /// Where the body was when its box was made.
-  const Anchor& anchor(Slot slot) const { return entries_[index(slot)].anchor; }
-  const Aabb& box_of(Slot slot) const {
-    return entries_[index(slot)].role == Role::Wall ? tree_.box_of(slot) : grid_.box_of(slot);
+  void prefetch_place(Slot slot) const { prefetch(&grid_.place(slot)); }
+  /// Asks for the list itself; its place should have come.
+  void prefetch_list(Slot slot) const { prefetch(of(slot).data()); }
+  double margin(Slot slot) const { return grid_.place(slot).margin; }
+  /// Where the body was when its box was made; in a periodic world, its image in the box.
+  Anchor anchor(Slot slot) const {
+    const Place& place = grid_.place(slot);
+    return {place.x, place.y, static_cast<double>(place.x_low), static_cast<double>(place.y_low)};
+  }
+  Aabb box_of(Slot slot) const {
+    const Place& place = grid_.place(slot);
+    return place.role == Role::Wall ? tree_.box_of(slot) : place.box();
   }
 
   /// Makes the box of a body afresh: `tight` is its extent and `here` its place now.
@@ -78,28 +84,23 @@ class Neighbours {
              double margin,
              const Interacts& interacts,
              const Copies& copies = {}) {
-    reserve(slot);
-    Entry& entry = entries_[index(slot)];
+    grid_.reserve(slot);
     take_out(slot, copies);
-    entry.role = role;
-    entry.margin = margin;
-    entry.anchor = {here.x, here.y, here.x_low, here.y_low};
-    entry.work = 0;
+    Place& place = grid_.place(slot);
+    place.role = role;
+    place.work = 0;
     const Aabb box = grown(tight, margin);
     if (role == Role::Wall) {
+      place.x = here.x + here.x_low;
+      place.y = here.y + here.y_low;
+      place.margin = margin;
       tree_.insert(slot, box);
     } else {
-      grid_.insert(slot, box);
+      grid_.insert(slot, tight, margin);
     }
-    found_.clear();
-    copies(box, [&](const Aabb& copy) {
-      query(copy, [&](Slot other) {
-        if (!interacts(other)) return;
-        prefetch(&entries_[index(other)]);
-        found_.push_back(other);
-      });
-    });
-    if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(found_);
+    place.x_low = static_cast<float>((here.x - place.x) + here.x_low);
+    place.y_low = static_cast<float>((here.y - place.y) + here.y_low);
+    find(slot, box, interacts, copies);
     replace_neighbours(slot);
   }
 
@@ -111,85 +112,89 @@ class Neighbours {
 
   /// Notes predictions made for a body since its last renewal.
   void note_work(Slot slot) {
-    Entry& entry = entries_[index(slot)];
-    entry.work += entry.list.size;
+    Place& place = grid_.place(slot);
+    const std::uint32_t work = place.work + place.list.size;
+    place.work = static_cast<std::uint16_t>(std::min(work, std::uint32_t{0xffff}));
   }
 
   /// The margin to renew with, so that searching and predicting cost about the same.
   double next_margin(Slot slot) const {
     constexpr double kGrow = 1.6;
     constexpr double kShrink = 0.8;
-    // A search costs about as much as this many predictions, and more for every neighbour found.
-    constexpr double kSearchWork = 24;
-    constexpr double kFoundWork = 2;
-    const Entry& entry = entries_[index(slot)];
-    const double search = kSearchWork + kFoundWork * static_cast<double>(entry.list.size);
-    if (entry.work < 0.5 * search) return entry.margin * kGrow;
-    if (entry.work > 2.0 * search) return entry.margin * kShrink;
-    return entry.margin;
+    // A search costs about as much as this many looks at a neighbour. Chosen; within a factor of two
+    // it hardly matters.
+    constexpr double kSearchWork = 40;
+    const Place& place = grid_.place(slot);
+    if (place.work < 0.5 * kSearchWork) return place.margin * kGrow;
+    if (place.work > 2.0 * kSearchWork) return place.margin * kShrink;
+    return place.margin;
   }
 
-  /// Calls visit(slot) for every body whose box overlaps `box`.
+  /// Calls visit(slot) for every body whose box overlaps `box`. `visit` may search itself.
   template <class Visit>
   void query(const Aabb& box, Visit&& visit) const {
-    grid_.query(box, visit);
+    std::vector<Slot> found = std::exchange(spare_, {});
+    const auto in_grid = grid_.find(box);
+    found.assign(in_grid.begin(), in_grid.end());
+    for (const Slot slot : found) visit(slot);
+    spare_ = std::move(found);
     tree_.query(box, visit);
   }
 
  private:
-  struct alignas(64) Entry {
-    Anchor anchor;
-    double margin = 0;
-    PooledList list;
-    std::uint32_t work = 0;
-    std::uint32_t mark = 0;
-    Role role = Role::DynamicDisk;
-    bool keeps_list() const { return role == Role::DynamicDisk; }
-  };
-
-  static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
-  void reserve(Slot slot) {
-    if (index(slot) >= entries_.size()) entries_.resize(index(slot) + 1);
-  }
   static void keep_each_once(std::vector<Slot>& slots) {
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   }
 
+  // Whom the body has as neighbours with the box that it has now: found_.
+  template <class Interacts, class Copies>
+  void find(Slot slot, const Aabb& box, const Interacts& interacts, const Copies& copies) {
+    const Place& own = grid_.place(slot);
+    found_.clear();
+    copies(box, [&](const Aabb& copy) {
+      for (const Slot other : grid_.find(copy)) {
+        const bool are_dynamic = own.keeps_list() && grid_.place(other).keeps_list();
+        if (are_dynamic ? other != slot : interacts(other)) found_.push_back(other);
+      }
+      tree_.query(copy, [&](Slot other) {
+        if (interacts(other)) found_.push_back(other);
+      });
+    });
+    if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(found_);
+  }
+
   // Takes the box of a body out, if it has one, and remembers in before_ whom it has as neighbours.
   template <class Copies>
   void take_out(Slot slot, const Copies& copies) {
-    const Entry& entry = entries_[index(slot)];
     before_.clear();
-    const bool in_tree = tree_.contains(slot);
-    if (!in_tree && !grid_.contains(slot)) return;
-    if (entry.keeps_list()) {
+    const bool in_grid = grid_.contains(slot);
+    if (!in_grid && !tree_.contains(slot)) return;
+    if (grid_.place(slot).keeps_list()) {
       before_.assign(of(slot).begin(), of(slot).end());
     } else {
       copies(box_of(slot), [this](const Aabb& copy) {
-        query(copy, [this](Slot other) {
-          if (entries_[index(other)].keeps_list()) before_.push_back(other);
-        });
+        for (const Slot other : grid_.find(copy)) {
+          if (grid_.place(other).keeps_list()) before_.push_back(other);
+        }
       });
       if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(before_);
     }
-    if (in_tree) {
-      tree_.remove(slot);
-    } else {
+    if (in_grid) {
       grid_.remove(slot);
+    } else {
+      tree_.remove(slot);
     }
   }
   void forget(Slot slot);
   void replace_neighbours(Slot slot);
-  std::uint32_t next_stamp();
 
-  BoxGrid grid_;
+  BoxGrid grid_;  // of disks, and the places of all bodies
   AabbTree tree_;
-  std::vector<Entry> entries_;
   ListPool pool_;
   std::vector<Slot> before_;  // whom a body without a list had as neighbours, and a few more
   std::vector<Slot> found_;
-  std::uint32_t stamp_ = 0;
+  mutable std::vector<Slot> spare_;  // its memory is used again
 };
 
 }  // namespace stoss::engine

@@ -111,14 +111,49 @@ inline const S kTwoMinus32 = power_of_two<S>(-32);
 
 }  // namespace detail
 
+namespace detail {
+
+template <class S>
+Int128 whole_part(const S& x) {
+  return static_cast<Int128>(x);
+}
+
+/// RN(n) and the rest, which is exact in a double for |n| < 2^106.
+inline DoubleWord<double> two_words(Int128 n) {
+  const Int128 high = n >> 32;
+  constexpr std::int64_t kExact = std::int64_t{1} << 53;
+  if (high < kExact && high >= -kExact) [[likely]] {  // both parts fit; RN is that of their sum
+    return quick_two_sum(static_cast<double>(static_cast<std::int64_t>(high)) * 0x1p32,
+                         static_cast<double>(static_cast<std::uint32_t>(n)));
+  }
+  const auto hi = static_cast<double>(n);
+  return {hi, static_cast<double>(n - static_cast<Int128>(hi))};
+}
+
+/// The whole part, towards zero. REQUIRES: |x| < 2^127.
+inline Int128 whole_part(double x) {
+  constexpr double kLargest = 0x1p94;
+  if (!(std::abs(x) < kLargest)) [[unlikely]] return static_cast<Int128>(x);
+  const auto high = static_cast<std::int64_t>(x * 0x1p-32);
+  const double rest = x - static_cast<double>(high) * 0x1p32;  // exact, with the sign of x
+  return (static_cast<Int128>(high) << 32) + static_cast<std::int64_t>(rest);
+}
+
+}  // namespace detail
+
 /// later - earlier in seconds: exact as an integer, rounded to hi, the rest rounded to lo.
 template <class S>
 DoubleWord<S> difference(const Instant& later, const Instant& earlier) {
-  static const S scale = detail::power_of_two<S>(-64);
   const Int128 n = ticks(later) - ticks(earlier);
-  const S hi = static_cast<S>(n);
-  const S lo = static_cast<S>(n - static_cast<Int128>(hi));
-  return {hi * scale, lo * scale};
+  if constexpr (std::is_same_v<S, double>) {
+    const DoubleWord<double> words = detail::two_words(n);
+    return {words.hi * 0x1p-64, words.lo * 0x1p-64};
+  } else {
+    static const S scale = detail::power_of_two<S>(-64);
+    const S hi = static_cast<S>(n);
+    const S lo = static_cast<S>(n - static_cast<Int128>(hi));
+    return {hi * scale, lo * scale};
+  }
 }
 
 /// later - earlier in seconds, for an S of at least 64 digits: summed limb by limb from the least.
@@ -157,8 +192,8 @@ std::optional<Instant> later_by(const Instant& from, const S& hi, const S& lo) {
   if (!(hi < limit)) return std::nullopt;
   const S high = hi * scale;
   const S low = lo * scale;
-  const Int128 high_whole = static_cast<Int128>(high);
-  const Int128 low_whole = static_cast<Int128>(low);
+  const Int128 high_whole = detail::whole_part(high);
+  const Int128 low_whole = detail::whole_part(low);
   // Both rests are exact and within (-1, 1).
   S rest = (high - static_cast<S>(high_whole)) + (low - static_cast<S>(low_whole));
   Int128 n = ticks(from) + high_whole + low_whole;

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sight.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace stoss::engine {
+namespace {
+
+/// The soonest two, lane by lane, of those that stood in it.
+struct SoonestByLane {
+  Four first = Four{} + std::numeric_limits<double>::infinity();
+  Four second = first;
+  FourWords partner = FourWords{} - 1;
+
+  [[gnu::always_inline]] void note(const FourWords& others, const Four& soonest) {
+    const FourWords is_first = soonest < first;
+    const Four later = is_first ? first : soonest;
+    second = later < second ? later : second;
+    first = is_first ? soonest : first;
+    partner = is_first ? others : partner;
+  }
+
+  SoonestTwo over_all() const {
+    SoonestTwo all;
+    for (int lane = 0; lane < 4; ++lane) {
+      all.note(static_cast<Slot>(partner[lane]), first[lane]);
+      all.second = std::min(all.second, second[lane]);
+    }
+    return all;
+  }
+};
+
+/// Four sights as columns.
+struct Columns {
+  SightsOf<Four> of;
+  Four unlike;
+};
+[[gnu::always_inline]] inline Columns gathered(const Sight& a,
+                                               const Sight& b,
+                                               const Sight& c,
+                                               const Sight& d) {
+  const auto from = [](const double& first) {
+    Four four;
+    std::memcpy(&four, &first, sizeof four);
+    return four;
+  };
+  Four x = from(a.x), y = from(b.x), vx = from(c.x), vy = from(d.x);
+  Four since = from(a.since), radius = from(b.since), off = from(c.since), unlike = from(d.since);
+  lanes::transpose(x, y, vx, vy);
+  lanes::transpose(since, radius, off, unlike);
+  return {{x, y, vx, vy, since, radius, off}, unlike};
+}
+
+}  // namespace
+
+SoonestTwo soonest_contacts(Slot slot,
+                            std::span<const Slot> list,
+                            const std::vector<Sight>& sights,
+                            double radius_min,
+                            double now,
+                            double slack) {
+  const Present own = present_of(sights[static_cast<std::size_t>(slot)], now);
+  const Four never = Four{} + std::numeric_limits<double>::infinity();
+  SoonestByLane found;
+  FourWords has_others{};
+  const Sight* const see = sights.data();
+  for (std::size_t i = 0; i < list.size(); i += 4) {
+    // Beyond its end a list has room for four, with slots that it held once.
+    const Slot* four = list.data() + i;
+    const auto count = static_cast<std::int64_t>(list.size() - i);
+    const Columns there = gathered(see[four[0]], see[four[1]], see[four[2]], see[four[3]]);
+    const Four soonest = soonest_contact<Four>(own, there.of, now, slack);
+    const FourWords is_other = (there.unlike != 0) | (there.of.radius < radius_min);
+    const FourWords is_beyond = FourWords{0, 1, 2, 3} >= count;
+    has_others |= is_other & ~is_beyond;
+    found.note(FourWords{four[0], four[1], four[2], four[3]},
+               (is_other | is_beyond) ? never : soonest);
+  }
+  SoonestTwo all = found.over_all();
+  all.has_others = (has_others[0] | has_others[1] | has_others[2] | has_others[3]) != 0;
+  return all;
+}
+
+}  // namespace stoss::engine
