@@ -238,6 +238,7 @@ class BasicWorld final : public WorldCore {
   // basic_world_events.hpp
   bool is_stale(const Event<S>& event) const;
   Slot next_slot();
+  void prefetch_event(Slot slot) const;
   bool process(Slot slot, CollisionSink* sink);
   void resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink);
   bool is_squeezed(const Contact& contact) const;
@@ -454,8 +455,8 @@ class BasicWorld final : public WorldCore {
   EventQueue<S> queue_;
   Time<S> crowded_instant_ = Time<S>::never();  ///< of the last collision
   std::uint64_t crowd_ = 0;                     ///< collisions at that instant since a command
-  Contact due_{};         ///< of the event that was sharpened last
-  bool has_due_ = false;  ///< until another event is processed
+  Contact due_{};                               ///< of the event that was sharpened last
+  bool has_due_ = false;                        ///< until another event is processed
 
   // The bodies' digests, brought up to date for those that changed when the hash is asked for.
   struct Digests {

@@ -4,6 +4,7 @@
 // The event loop and the resolution of contacts.
 
 #include "basic_world.hpp"
+#include "prefetch.hpp"
 #include "simultaneous.hpp"
 #include "squeeze.hpp"
 
@@ -56,11 +57,25 @@ template <class S, class Laws>
 Slot BasicWorld<S, Laws>::next_slot() {
   const auto ids = id_lookup();
   while (!queue_.empty()) {
+    const Slot upcoming = queue_.upcoming();
     const Slot slot = queue_.top(ids);
+    if (queue_.upcoming() != upcoming) prefetch_event(queue_.upcoming());
     if (!has_guess(slot)) return slot;
     sharpen(slot);
   }
   return -1;
+}
+
+/// Asks for what an event that comes up soon will read.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::prefetch_event(Slot slot) const {
+  if (slot < 0) return;
+  const Slot partner = queue_.event_of(slot).partner;
+  for (const Slot own : {slot, partner < 0 ? slot : partner}) {
+    prefetch_all(at(own));
+    neighbours_.prefetch_place(own);
+    if constexpr (kHasSights<Laws>) prefetch(&sights_.of_slot[index(own)]);
+  }
 }
 
 // With STOSS_VALIDATE every so many events the whole world is looked at.

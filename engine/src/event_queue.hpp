@@ -17,6 +17,8 @@
 // other one that is due before the lap ends, the rest all others; 2. no event stands above an
 // earlier one in the heap; 3. a bit of occupied_ is set where its bucket holds something.
 
+#include "prefetch.hpp"
+
 #include <stoss/engine/instant.hpp>
 #include <stoss/engine/types.hpp>
 
@@ -95,6 +97,10 @@ class EventQueue {
     while (heap_.empty()) open_next_bucket(ids);
     return heap_.front();
   }
+
+  /// A slot whose turn comes soon after the first's; -1: none is known. For asking for memory
+  /// ahead.
+  std::int32_t upcoming() const { return upcoming_; }
 
   /// Makes room for a slot, without an event.
   void admit(std::int32_t slot) {
@@ -234,10 +240,26 @@ class EventQueue {
       }
       released_ += heap_.size();
       if (heap_.size() > kCrowd && 2 * released_ > size_) gather_all();
-      if (!heap_.empty()) return;
-      break;
+      if (heap_.empty()) break;
+      look_ahead();
+      return;
     }
     begin_lap(ids);
+  }
+
+  // Of the next two buckets: the nearer one's first slot is known by now, the other's is asked for.
+  void look_ahead() {
+    upcoming_ = kNull;
+    std::uint64_t bits = occupied_[first_word_];
+    for (std::size_t word = first_word_; word < occupied_.size(); bits = occupied_[++word]) {
+      for (; bits != 0; bits &= bits - 1) {
+        const std::int32_t slot =
+            buckets_[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
+        if (upcoming_ != kNull) return prefetch(&lines_[index(slot)]);
+        upcoming_ = slot;
+      }
+      if (word + 1 == occupied_.size()) return;
+    }
   }
 
   // The world has become faster or fuller than the buckets were cut for.
@@ -366,6 +388,7 @@ class EventQueue {
   int shift_ = 0;  // the logarithm of a bucket's width in 2^-64 s
   std::size_t first_word_ = 0;
   std::size_t released_ = 0;  // events from buckets, in this lap
+  std::int32_t upcoming_ = kNull;
 };
 
 }  // namespace stoss::engine

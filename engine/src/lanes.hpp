@@ -8,10 +8,6 @@
 #include <cmath>
 #include <cstdint>
 
-#if defined(__AVX__)
-#include <immintrin.h>
-#endif
-
 // Without AVX compilers warn that four doubles are passed in another way than with it. Nothing here
 // is passed: every function is inlined.
 #if defined(__GNUC__)
@@ -35,8 +31,10 @@ namespace lanes {
 [[gnu::always_inline]] inline double root(double x) { return std::sqrt(x < 0 ? 0 : x); }
 [[gnu::always_inline]] inline Four root(const Four& x) {
   const Four radicand = x < 0 ? Four{} : x;
-#if defined(__AVX__)
-  return _mm256_sqrt_pd(radicand);
+#if __has_builtin(__builtin_elementwise_sqrt)
+  return __builtin_elementwise_sqrt(radicand);
+#elif defined(__AVX__)
+  return __builtin_ia32_sqrtpd256(radicand);
 #else
   return Four{std::sqrt(radicand[0]),
               std::sqrt(radicand[1]),

@@ -150,7 +150,7 @@ inline double soonest_contact(const Sight& a, const Sight& b, double now, double
 struct SoonestTwo {
   double first = std::numeric_limits<double>::infinity();
   double second = std::numeric_limits<double>::infinity();
-  Slot partner = -1;          ///< of the first
+  Slot partner = -1;        ///< of the first
   bool has_others = false;  ///< there are some that were not looked at
 
   void note(Slot other, double soonest) {

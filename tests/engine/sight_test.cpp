@@ -105,15 +105,13 @@ TEST(Sight, FourAtATimeAreTheSameAsOneByOne) {
       if (is_passed_over(sight, kRadiusMin)) {
         expected.has_others = true;
       } else {
-        expected.note(other,
-                      soonest_contact(sights[static_cast<std::size_t>(slot)],
-                                      sight,
-                                      kNow,
-                                      kScreenSlack<double>));
+        expected.note(
+            other,
+            soonest_contact(
+                sights[static_cast<std::size_t>(slot)], sight, kNow, kScreenSlack<double>));
       }
     }
-    const auto found =
-        soonest_contacts(slot, list, sights, kRadiusMin, kNow, kScreenSlack<double>);
+    const auto found = soonest_contacts(slot, list, sights, kRadiusMin, kNow, kScreenSlack<double>);
     ASSERT_EQ(found.first, expected.first);
     ASSERT_EQ(found.second, expected.second);
     ASSERT_EQ(found.has_others, expected.has_others);

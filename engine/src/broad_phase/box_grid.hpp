@@ -5,8 +5,8 @@
 //
 // A box of half side h stands on a level whose cells are larger, 2^level > h, and hardly more so,
 // in the one cell that holds its middle. A search looks, on every level that has boxes, at the
-// cells within one cell of the box searched. Cells are kept in blocks of four by four, a cache line each, behind
-// a hash of the block's place: no world size, and empty space costs nothing.
+// cells within one cell of the box searched. Cells are kept in blocks of four by four, a cache line
+// each, behind a hash of the block's place: no world size, and empty space costs nothing.
 //
 // Source: hierarchical grids, Mirtich, "Efficient algorithms for two-phase collision detection"
 // (1997); with one cell a box and searches of all levels as in Ogarko, Luding, Comput. Phys.

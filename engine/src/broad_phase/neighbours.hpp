@@ -121,8 +121,8 @@ class Neighbours {
   double next_margin(Slot slot) const {
     constexpr double kGrow = 1.6;
     constexpr double kShrink = 0.8;
-    // A search costs about as much as this many looks at a neighbour. Chosen; within a factor of two
-    // it hardly matters.
+    // A search costs about as much as this many looks at a neighbour. Chosen; within a factor of
+    // two it hardly matters.
     constexpr double kSearchWork = 40;
     const Place& place = grid_.place(slot);
     if (place.work < 0.5 * kSearchWork) return place.margin * kGrow;

@@ -23,8 +23,8 @@ struct alignas(64) Place {
   double margin = 0;  ///< m, by how much the box is larger than the body was
   float x_low = 0;    ///< m, from (x, y) to where the body itself was
   float y_low = 0;
-  PooledList list;             ///< of neighbours
-  std::int32_t next = kNone;   ///< in the same cell of the grid
+  PooledList list;                ///< of neighbours
+  std::int32_t next = kNone;      ///< in the same cell of the grid
   std::int32_t previous = kNone;  ///< kNone: the first of its cell
   std::int32_t cell = kNone;      ///< kNone: not in the grid
   std::uint16_t work = 0;         ///< predictions looked at since the last renewal, at most

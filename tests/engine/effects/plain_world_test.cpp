@@ -12,7 +12,7 @@ namespace {
 
 /// What a body was before there were effects.
 template <class S>
-struct BareBody {
+struct alignas(64) BareBody {
   Motion<S> motion;
   S radius{};
   S mass{};

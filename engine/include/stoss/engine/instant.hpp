@@ -133,7 +133,8 @@ inline DoubleWord<double> two_words(Int128 n) {
 /// The whole part, towards zero. REQUIRES: |x| < 2^127.
 inline Int128 whole_part(double x) {
   constexpr double kLargest = 0x1p94;
-  if (!(std::abs(x) < kLargest)) [[unlikely]] return static_cast<Int128>(x);
+  if (!(std::abs(x) < kLargest)) [[unlikely]]
+    return static_cast<Int128>(x);
   const auto high = static_cast<std::int64_t>(x * 0x1p-32);
   const double rest = x - static_cast<double>(high) * 0x1p32;  // exact, with the sign of x
   return (static_cast<Int128>(high) << 32) + static_cast<std::int64_t>(rest);
