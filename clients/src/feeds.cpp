@@ -19,7 +19,8 @@ std::optional<Frame> frame_of(const wire::FrameChunk& chunk) {
   };
   if (!fits(chunk.x._length, false) || !fits(chunk.y._length, false) ||
       !fits(chunk.vx._length, false) || !fits(chunk.vy._length, false) ||
-      !fits(chunk.angle._length, true) || !fits(chunk.spin._length, true)) {
+      !fits(chunk.angle._length, true) || !fits(chunk.spin._length, true) ||
+      !fits(chunk.radius._length, true)) {
     return std::nullopt;
   }
   Frame frame{.epoch = chunk.epoch, .tick = chunk.tick, .at = translate::to_engine(chunk.at)};
@@ -29,7 +30,8 @@ std::optional<Frame> frame_of(const wire::FrameChunk& chunk) {
                             {chunk.x._buffer[i], chunk.y._buffer[i]},
                             {chunk.vx._buffer[i], chunk.vy._buffer[i]},
                             idl::at_or(chunk.angle, i, 0),
-                            idl::at_or(chunk.spin, i, 0)});
+                            idl::at_or(chunk.spin, i, 0),
+                            idl::at_or(chunk.radius, i, 0)});
   }
   return frame;
 }

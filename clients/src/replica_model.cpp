@@ -137,7 +137,7 @@ void ReplicaModel::apply_tick() {
   tell();
 }
 
-// What a part spawns is listed in its statics in the same order.
+// What a part spawns is listed in its statics in the same order, and what has grown for good.
 bool ReplicaModel::apply_part(const MotionPart& part) {
   std::size_t next_static = 0;
   for (const MotionChange& change : part.changes) {
@@ -152,7 +152,11 @@ bool ReplicaModel::apply_part(const MotionPart& part) {
       case engine::ChangeKind::Moved: {
         const auto found = slot_of_.find(id);
         if (found == slot_of_.end()) return false;
-        bodies_[found->second].motion = change.motion;
+        ReplicaBody& body = bodies_[found->second];
+        body.motion = change.motion;
+        if (next_static < part.statics.size() && part.statics[next_static].id == id) {
+          body.body = part.statics[next_static++];
+        }
         break;
       }
       case engine::ChangeKind::Removed:

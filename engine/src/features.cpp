@@ -240,12 +240,29 @@ std::vector<EffectSetting> settings_of(const Effects& effects) {
   return settings;
 }
 
+namespace {
+
+bool is_period(std::string_view name) {
+  return name == "period" || name == "period.x" || name == "period.y";
+}
+
+Reject fixed_period() {
+  return {.code = Code::Unimplemented,
+          .field = "period",
+          .reason =
+              "is fixed when a world is made and cannot be switched; make one of a scene "
+              "with the period that you want"};
+}
+
+}  // namespace
+
 Outcome<Effects> changed_effects(const Effects& present,
                                  std::span<const std::string> off,
                                  std::span<const EffectSetting> settings) {
   Effects effects = present;
   for (const std::string& name : off) {
     const EffectInfo* const effect = find_effect(name);
+    if (is_period(name)) return fixed_period();
     if (effect == nullptr) return invalid(name, "is no effect of this version");
     if (!effect->is_on(effects)) return invalid(name, "is not on");
     effect->set(effects, false);
@@ -253,6 +270,7 @@ Outcome<Effects> changed_effects(const Effects& present,
   const Effects before = effects;
   for (const EffectSetting& setting : settings) {
     const Named named = find(setting.name);
+    if (is_period(setting.name)) return fixed_period();
     if (named.parameter == nullptr) return invalid(setting.name, "is no number of an effect");
     const EffectInfo& effect = *find_effect(named.parameter->effect);
     const bool is_whole =

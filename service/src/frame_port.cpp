@@ -43,6 +43,7 @@ void FramePort::publish(const Picture& picture) {
     idl::lend(sample.vy, slice(vy_));
     idl::lend(sample.angle, slice(angle));
     idl::lend(sample.spin, slice(spin));
+    idl::lend(sample.radius, slice(radius_));
     static_cast<void>(writer_.write(sample));
   }
   ++count_;
@@ -50,7 +51,7 @@ void FramePort::publish(const Picture& picture) {
 
 void FramePort::fill(const Picture& picture) {
   id_.clear();
-  for (auto* column : {&x_, &y_, &vx_, &vy_}) column->clear();
+  for (auto* column : {&x_, &y_, &vx_, &vy_, &radius_}) column->clear();
   angle_.clear();
   spin_.clear();
   for (const Picture::Body& body : picture.bodies()) {
@@ -63,6 +64,7 @@ void FramePort::fill(const Picture& picture) {
     y_.push_back(state.position.y());
     vx_.push_back(state.velocity.x());
     vy_.push_back(state.velocity.y());
+    if (picture.has_grown()) radius_.push_back(state.radius);
   }
 }
 

@@ -38,6 +38,7 @@ class FramePort {
   std::uint64_t last_scene_ = 0;
   std::vector<std::uint64_t> id_;
   std::vector<double> x_, y_, vx_, vy_;
+  std::vector<double> radius_;  ///< empty while no disk has grown
   translate::SparseColumn angle_, spin_;
 };
 

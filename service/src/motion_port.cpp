@@ -6,20 +6,28 @@
 namespace stoss::service {
 namespace {
 
+/// Growth that was switched off leaves radii that no motion tells.
+bool tells_body(const BodyChange& change, bool effects_switched) {
+  if (change.kind == engine::ChangeKind::Spawned) return true;
+  const bool grows = change.motion.radius.high != 0;
+  return effects_switched && change.kind == engine::ChangeKind::Moved && !change.body.is_wall &&
+         !grows;
+}
+
 /// The lengths of the parts that a tick's changes are sent in, within the bounds of the types.
-std::vector<std::size_t> parts_of(std::span<const BodyChange> changes) {
+std::vector<std::size_t> parts_of(std::span<const BodyChange> changes, bool effects_switched) {
   std::vector<std::size_t> lengths;
   std::size_t motions = 0;
   std::size_t statics = 0;
   for (const BodyChange& change : changes) {
-    const bool spawned = change.kind == engine::ChangeKind::Spawned;
-    if (motions == stoss_v1_MAX_MOTIONS || (spawned && statics == stoss_v1_MAX_STATICS)) {
+    const bool is_told = tells_body(change, effects_switched);
+    if (motions == stoss_v1_MAX_MOTIONS || (is_told && statics == stoss_v1_MAX_STATICS)) {
       lengths.push_back(motions);
       motions = 0;
       statics = 0;
     }
     ++motions;
-    if (spawned) ++statics;
+    if (is_told) ++statics;
   }
   lengths.push_back(motions);
   return lengths;
@@ -44,12 +52,12 @@ void MotionPort::begin_epoch(const Moment& moment, std::uint64_t state_hash) {
   batch.tick = moment.tick;
   batch.at = translate::to_wire(moment.at);
   batch.state_hash = state_hash;
-  write_part(batch, {});
+  write_part(batch, {}, false);
 }
 
 void MotionPort::publish(const TickRecord& record) {
   if (record.changes.empty()) return;
-  const std::vector<std::size_t> parts = parts_of(record.changes);
+  const std::vector<std::size_t> parts = parts_of(record.changes, record.effects.has_value());
   if (!has_readers()) {
     number_ += parts.size();
     return;
@@ -64,12 +72,14 @@ void MotionPort::publish(const TickRecord& record) {
     batch.tick = record.moment.tick;
     batch.at = translate::to_wire(record.moment.at);
     batch.state_hash = part + 1 == parts.size() ? record.state_hash : 0;
-    write_part(batch, rest.first(parts[part]));
+    write_part(batch, rest.first(parts[part]), record.effects.has_value());
     rest = rest.subspan(parts[part]);
   }
 }
 
-void MotionPort::write_part(wire::MotionBatch& batch, std::span<const BodyChange> changes) {
+void MotionPort::write_part(wire::MotionBatch& batch,
+                            std::span<const BodyChange> changes,
+                            bool effects_switched) {
   batch.arithmetic = idl::wire_value(translate::to_wire(arithmetic_));
   batch.period_x = period_.x();
   batch.period_y = period_.y();
@@ -77,7 +87,7 @@ void MotionPort::write_part(wire::MotionBatch& batch, std::span<const BodyChange
   statics_.clear();
   for (const BodyChange& change : changes) {
     motions_.append(change.kind, change.motion);
-    if (change.kind == engine::ChangeKind::Spawned) statics_.append(change.body);
+    if (tells_body(change, effects_switched)) statics_.append(change.body);
   }
   motions_.lend(batch.motions, 0, motions_.size());
   statics_.lend(batch.statics, 0, statics_.size());

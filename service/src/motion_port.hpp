@@ -32,7 +32,9 @@ class MotionPort {
   [[nodiscard]] std::uint64_t failures() const { return writer_.failures(); }
 
  private:
-  void write_part(wire::MotionBatch& batch, std::span<const BodyChange> changes);
+  void write_part(wire::MotionBatch& batch,
+                  std::span<const BodyChange> changes,
+                  bool effects_switched);
 
   dds::Writer<wire::MotionBatch> writer_;
   engine::Arithmetic arithmetic_;

@@ -11,6 +11,7 @@ void Picture::begin(const EpochRecord& record) {
   bodies_.clear();
   index_.clear();
   names_.clear();
+  has_grown_ = false;
   bodies_.reserve(record.bodies.size());
   index_.reserve(record.bodies.size());
   for (const BodyChange& body : record.bodies) put(body);
@@ -48,6 +49,7 @@ void Picture::put(const BodyChange& change) {
     bodies_[entry->second] = {change.motion, change.body};
   }
   if (is_new || change.body.is_wall) ++scene_version_;
+  has_grown_ = has_grown_ || change.motion.radius.high != 0;
 }
 
 void Picture::set_zones(const std::vector<engine::ZoneState>& zones) {

@@ -49,6 +49,8 @@ class Picture {
   [[nodiscard]] const Body* find(engine::Id id) const;
   [[nodiscard]] const std::unordered_map<engine::Id, std::string>& names() const { return names_; }
 
+  /// Has any disk grown since the epoch began? Then radii are what they are at moment().
+  [[nodiscard]] bool has_grown() const { return has_grown_; }
   /// In the order of ids.
   [[nodiscard]] const std::vector<engine::ZoneState>& zones() const { return zones_; }
 
@@ -68,6 +70,7 @@ class Picture {
   Moment moment_;
   std::uint64_t state_hash_ = 0;
   std::uint64_t scene_version_ = 0;
+  bool has_grown_ = false;
   std::vector<Body> bodies_;
   std::unordered_map<engine::Id, std::size_t> index_;
   std::unordered_map<engine::Id, std::string> names_;

@@ -47,7 +47,7 @@ ScenePort::Columns ScenePort::columns_of(const Picture& picture) {
     } else {
       columns.disk_id.push_back(record.id);
       columns.disk_kind.push_back(idl::wire_value(translate::to_wire(record.kind)));
-      columns.disk_radius.push_back(record.radius);
+      columns.disk_radius.push_back(picture.state_of(*body).radius);
       columns.disk_mass.push_back(record.mass);
     }
   }

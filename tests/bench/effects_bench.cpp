@@ -29,13 +29,14 @@
 #include <vector>
 
 namespace stoss::engine_exact {
-bench::Advance make_gas_run(int columns, double area_fraction);
+bench::Start make_gas_start(int columns, double area_fraction);
 }
 
 namespace {
 
 using namespace stoss::engine;
 using stoss::bench::Advance;
+using stoss::bench::Start;
 
 constexpr double kPull = 0.05;          // m/s^2: a quarter of the gas's energy over its box
 constexpr double kDeceleration = 1e-3;  // m/s^2: the gas moves on through all rounds
@@ -216,10 +217,10 @@ std::vector<ZoneSpec> make_zones(int count, double side) {
   return zones;
 }
 
-Advance make_world(const Row& row, int columns) {
-  if (row.is_other_build) return stoss::engine_exact::make_gas_run(columns, kAreaFraction);
+Start make_start(const Row& row, int columns) {
+  if (row.is_other_build) return stoss::engine_exact::make_gas_start(columns, kAreaFraction);
   const double side = stoss::bench::side_of_box(columns, kAreaFraction);
-  return stoss::bench::make_run<World, DiskSpec, WallSpec>(columns, kAreaFraction, [&] {
+  return stoss::bench::make_start<World, DiskSpec, WallSpec>(columns, kAreaFraction, [&] {
     WorldOptions options;
     options.effects = row.effects;
     if (row.is_periodic) options.period = {1.25 * side, 1.25 * side};
@@ -231,10 +232,10 @@ Advance make_world(const Row& row, int columns) {
 }
 
 std::vector<Round> measure(const std::vector<Row>& rows, int columns, std::size_t rounds) {
-  std::vector<Advance> worlds;
+  std::vector<Start> starts;
   std::vector<std::vector<Case>> cases;
   for (const Row& row : rows) {
-    worlds.push_back(make_world(row, columns));
+    starts.push_back(make_start(row, columns));
     cases.push_back(make_cases(row.effects));
   }
   const auto events = static_cast<std::uint64_t>(4 * columns * columns);
@@ -245,8 +246,9 @@ std::vector<Round> measure(const std::vector<Row>& rows, int columns, std::size_
       Figures& figures = result[round][i];
       const auto kernels = time_kernels(rows[i], cases[i]);
       std::copy(kernels.begin(), kernels.end(), figures.begin());
+      const Advance advance = starts[i]();
       const double begun = processor_seconds();
-      const std::uint64_t collisions = worlds[i](events);
+      const std::uint64_t collisions = advance(events);
       figures[kKernels] = 1e9 * (processor_seconds() - begun) / static_cast<double>(collisions);
     }
   }
@@ -302,7 +304,7 @@ bool write_into(const std::string& path, const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  int rounds = 7;  // later the gas with friction and losses comes to rest
+  int rounds = 21;
   int columns = 32;
   std::string file;
   for (int i = 1; i + 1 < argc; i += 2) {

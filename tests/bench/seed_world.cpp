@@ -31,4 +31,8 @@ bench::Advance make_gas_run(int columns, double area_fraction) {
   return bench::make_run<World, DiskSpec, WallSpec>(columns, area_fraction);
 }
 
+bench::Start make_gas_start(int columns, double area_fraction) {
+  return bench::make_start<World, DiskSpec, WallSpec>(columns, area_fraction);
+}
+
 }  // namespace stoss::engine

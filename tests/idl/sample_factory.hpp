@@ -125,7 +125,7 @@ class SampleFactory {
     fill_all(n, b.id, b.x, b.y, b.radius);
   }
   void frame(idl::wire::FrameChunk& c, std::size_t n = stoss_v1_MAX_FRAME_BODIES) {
-    fill_all(n, c.id, c.x, c.y, c.vx, c.vy, c.angle, c.spin);
+    fill_all(n, c.id, c.x, c.y, c.vx, c.vy, c.angle, c.spin, c.radius);
   }
   void scene(idl::wire::SceneChunk& c) {
     fill_all(stoss_v1_MAX_SCENE_DISKS, c.disk_id, c.disk_kind, c.disk_radius, c.disk_mass);

@@ -45,9 +45,10 @@ TEST(DaemonProcess, RefusesASceneByNameAndReason) {
   EXPECT_EQ(overlapping.wait(), 65);
   EXPECT_NE(overlapping.log().find("OVERLAP"), std::string::npos) << overlapping.log();
 
-  const std::string curved = temporary_file("curved.json",
-                                            R"({"effects": {"gravity": {"acceleration": {"y": -1}},
-                      "floor_friction": {"deceleration": 1}}})");
+  const std::string curved =
+      temporary_file("curved.json",
+                     R"({"effects": {"gravity": {"acceleration": {"y": -1}}, )"
+                     R"("floor_friction": {"deceleration": 1}}})");
   Process falling(stossd(kDomain, {"--scene", curved}));
   EXPECT_EQ(falling.wait(), 65);
   EXPECT_NE(falling.log().find("UNIMPLEMENTED: effects.floor_friction"), std::string::npos)

@@ -74,9 +74,15 @@ inline Real root_in_bracket(const Polynomial& f, const Polynomial& slope, Real l
   return t;
 }
 
-/// The places in (0, end) where f changes sign, in order.
-inline std::vector<Real> sign_changes(Polynomial f, const Real& end) {
+/// The polynomial without leading coefficients of zero: a straight flight's gap is a quadratic.
+inline Polynomial trimmed(Polynomial f) {
   while (f.size() > 1 && f.back() == 0) f.pop_back();
+  return f;
+}
+
+/// The places in (0, end) where f changes sign, in order.
+inline std::vector<Real> sign_changes(const Polynomial& given, const Real& end) {
+  const Polynomial f = trimmed(given);
   if (f.size() < 2) return {};
   const Polynomial slope = derivative_of(f);
   std::vector<Real> points{Real(0)};
@@ -96,8 +102,8 @@ inline std::vector<Real> sign_changes(Polynomial f, const Real& end) {
 }
 
 /// A bound of all roots (Cauchy's).
-inline Real root_bound(Polynomial f) {
-  while (f.size() > 1 && f.back() == 0) f.pop_back();
+inline Real root_bound(const Polynomial& given) {
+  const Polynomial f = trimmed(given);
   Real bound = 0;
   for (std::size_t i = 0; i + 1 < f.size(); ++i) {
     // Fujiwara's: 2 max |f_i / f_n|^(1 / (n - i)), the root taken of a power of two above.
@@ -112,7 +118,8 @@ inline Real root_bound(Polynomial f) {
 }
 
 /// The infimum of the t >= 0 with f(t) <= 0 and falling.
-inline std::optional<Real> exact_fall(const Polynomial& f) {
+inline std::optional<Real> exact_fall(const Polynomial& given) {
+  const Polynomial f = trimmed(given);
   const Polynomial slope = derivative_of(f);
   std::vector<Real> points{Real(0)};
   const Real end = std::max(root_bound(f), root_bound(slope)) + 1;

@@ -20,35 +20,82 @@ struct ExactClock {
 };
 
 inline ExactClock exact_clock(const Real& t, const Real& rate) {
-  const Real run = -expm1(Real(-rate * t)) / rate;
-  if (rate * t > Real(1e-20)) return {run, Real((t - run) / rate), exp(Real(-rate * t))};
-  const Real y = rate * t;  // five terms are exact to 400 bits' last hundred
-  Real mean(0);
+  const Real y = rate * t;
+  if (y > 1) {
+    const Real left = exp(Real(-y)), run = (1 - left) / rate;
+    return {run, Real((t - run) / rate), left};
+  }
+  const Real passed = -expm1(Real(-y)), run = passed / rate, left = 1 - passed;
+  if (y > Real(1e-20)) return {run, Real((t - run) / rate), left};
+  Real mean(0);  // five terms are exact to 400 bits' last hundred
   for (int n = 12; n > 0; --n) mean = (1 - mean * y) / (n + 1);
-  return {run, Real(t * t * mean), exp(Real(-y))};
+  return {run, Real(t * t * mean), left};
 }
 
 /// The gap of one case, and its derivatives as drag_curve.hpp has them, from coefficients.
 class ExactGap {
  public:
   ExactGap(const Real2& p, const Real2& v, const Real2& a, const Real& d, const Real& rate)
-      : p_(p), v_(v), a_(a), d_(d), rate_(rate) {}
+      : v_(v), a_(a), c_(dot(p, p) - d * d), rate_(rate) {
+    pv_ = dot(p, v), pa_ = dot(p, a), vv_ = dot(v, v), va_ = dot(v, a), aa_ = dot(a, a);
+  }
 
-  Real value(const Real& t) const {
-    const ExactClock c = exact_clock(t, rate_);
-    return dot(p_, p_) - d_ * d_ + 2 * (dot(p_, v_) * c.run + dot(p_, a_) * c.fall) +
-           dot(v_, v_) * c.run * c.run + 2 * dot(v_, a_) * c.run * c.fall +
-           dot(a_, a_) * c.fall * c.fall;
+  Real value(const Real& t) const { return gap_at(t).f; }
+  Real slope(const Real& t) const { return slope_at(t).f; }
+
+  std::optional<Real> contact() const { return crossing(false); }
+
+  /// The infimum of the t >= 0 with F <= 0 and falling; of one inside, with F >= 0 and rising.
+  std::optional<Real> crossing(bool is_inside) const {
+    std::vector<Real> bends{Real(0)};
+    if (const auto turn = lowest_bend()) bends.push_back(*turn);
+    Real end = bends.back() + 1 / rate_;
+    const auto high = [&] { return bend_at(end).f > 0 && slope(end) > 0 && value(end) > 0; };
+    while (!high()) end *= 2;
+    bends.push_back(end);
+    const std::vector<Real> slopes = with_changes(&ExactGap::bend_at, bends);
+    const std::vector<Real> pieces = with_changes(&ExactGap::slope_at, slopes);
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+      const bool falls = slope(Real((pieces[i] + pieces[i + 1]) / 2)) < 0;
+      if (falls == is_inside) continue;
+      const Real left = value(pieces[i]), right = value(pieces[i + 1]);
+      const bool is_beyond = is_inside ? left >= 0 : left <= 0;
+      if (is_inside ? right <= 0 : right >= 0 && !is_beyond) continue;
+      if (is_beyond) return pieces[i];
+      return zero_between(&ExactGap::gap_at, pieces[i], pieces[i + 1]);
+    }
+    return std::nullopt;
   }
-  Real slope(const Real& t) const {
-    const ExactClock c = exact_clock(t, rate_);
-    return (dot(p_, v_) + dot(v_, v_) * c.run + dot(v_, a_) * c.fall) * c.left +
-           (dot(p_, a_) + dot(v_, a_) * c.run + dot(a_, a_) * c.fall) * c.run;
+
+ private:
+  /// A function of time and its derivative.
+  struct Point {
+    Real f, derivative;
+  };
+  using Function = Point (ExactGap::*)(const Real&) const;
+
+  Point gap_at(const Real& t) const {
+    const ExactClock k = exact_clock(t, rate_);
+    const Real along = vv_ * k.run + va_ * k.fall, across = va_ * k.run + aa_ * k.fall;
+    return {Real(c_ + (2 * pv_ + along) * k.run + (2 * pa_ + across) * k.fall),
+            Real(2 * ((pv_ + along) * k.left + (pa_ + across) * k.run))};
   }
-  Real bend(const Real& t) const {
-    const ExactClock c = exact_clock(t, rate_);
-    return dot(v_, v_) * c.left * c.left + 2 * dot(v_, a_) * c.left * c.run +
-           dot(a_, a_) * c.run * c.run + dot(p_, a_) + dot(v_, a_) * c.run + dot(a_, a_) * c.fall;
+  /// Half the derivative of the gap.
+  Point slope_at(const Real& t) const {
+    const ExactClock k = exact_clock(t, rate_);
+    const Real pull = pa_ + va_ * k.run + aa_ * k.fall;
+    const Real f = (pv_ + vv_ * k.run + va_ * k.fall) * k.left + pull * k.run;
+    return {f, Real(bend_of(k) - rate_ * f)};
+  }
+  Point bend_at(const Real& t) const {
+    const ExactClock k = exact_clock(t, rate_);
+    const Real turning = va_ * k.left + aa_ * k.run;
+    return {bend_of(k),
+            Real((1 + 2 * k.left) * turning - 2 * rate_ * k.left * (vv_ * k.left + va_ * k.run))};
+  }
+  Real bend_of(const ExactClock& k) const {
+    return (vv_ * k.left + va_ * k.run) * k.left + (va_ * k.left + aa_ * k.run) * k.run + pa_ +
+           va_ * k.run + aa_ * k.fall;
   }
   /// Where the bend turns, or nothing.
   std::optional<Real> lowest_bend() const {
@@ -61,69 +108,44 @@ class ExactGap {
     return Real(-log(left) / rate_);
   }
 
-  std::optional<Real> contact() const { return crossing(false); }
-
-  /// The infimum of the t >= 0 with F <= 0 and falling; of one inside, with F >= 0 and rising.
-  std::optional<Real> crossing(bool is_inside) const {
-    std::vector<Real> bends{Real(0)};
-    if (const auto turn = lowest_bend()) bends.push_back(*turn);
-    Real end = bends.back() + 1 / rate_;
-    const auto high = [&] { return bend(end) > 0 && slope(end) > 0 && value(end) > 0; };
-    while (!high()) end *= 2;
-    const auto on_bend = [this](const Real& t) { return bend(t); };
-    const auto on_slope = [this](const Real& t) { return slope(t); };
-    bends.push_back(end);
-    const std::vector<Real> slopes = with_changes(on_bend, bends);
-    const std::vector<Real> pieces = with_changes(on_slope, slopes);
-    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-      const bool falls = slope(Real((pieces[i] + pieces[i + 1]) / 2)) < 0;
-      if (falls == is_inside) continue;
-      const Real left = value(pieces[i]), right = value(pieces[i + 1]);
-      const bool is_beyond = is_inside ? left >= 0 : left <= 0;
-      if (is_inside ? right <= 0 : right >= 0 && !is_beyond) continue;
-      if (is_beyond) return pieces[i];
-      return zero_between([this](const Real& t) { return value(t); }, pieces[i], pieces[i + 1]);
-    }
-    return std::nullopt;
-  }
-
- private:
-  template <class Function>
-  static Real zero_between(const Function& f, Real low, Real high) {
-    const bool rising = f(low) < 0;
-    const Real close = ldexp(Real(1), -250);
-    for (int i = 0; i < 3000 && high - low > close * high; ++i) {
-      Real middle = low > 0 && high > 4 * low ? Real(sqrt(low * high)) : Real((low + high) / 2);
-      if (low == 0) middle = high / 1024;
-      ((f(middle) < 0) == rising ? low : high) = middle;
-      // Regula falsi on both sides of the secant, so that each pass gains digits.
-      const Real left = f(low), right = f(high);
-      if (left == right) continue;
-      const Real secant = low - left * (high - low) / (right - left);
-      const Real nudge = (high - low) * (high - low) / high;
-      for (const Real& t : {Real(secant - nudge), Real(secant + nudge)}) {
-        if (!(t > low && t < high)) continue;
-        ((f(t) < 0) == rising ? low : high) = t;
+  /// By Newton's steps within a bracket that every one of them narrows.
+  Real zero_between(Function function, Real low, Real high) const {
+    const bool rising = (this->*function)(low).f < 0;
+    const Real close = ldexp(Real(1), -300);
+    Real t = (low + high) / 2;
+    for (int i = 0; i < 3000; ++i) {
+      const Point at = (this->*function)(t);
+      if (at.f == 0) return t;
+      ((at.f < 0) == rising ? low : high) = t;
+      const Real step = at.derivative == 0 ? Real(high) : Real(-at.f / at.derivative);
+      Real next = t + step;
+      if (abs(step) <= close * t) return next;
+      if (!(next > low && next < high)) {  // brackets over many decades are halved in exponents
+        const bool decades = high > 4 * low;
+        next = !decades ? Real((low + high) / 2) : low > 0 ? Real(sqrt(low * high)) : high / 1024;
       }
+      if (high - low <= close * high) return next;
+      t = next;
     }
-    return (low + high) / 2;
+    return t;
   }
-  /// The points, and where f changes its sign between them.
-  template <class Function>
-  static std::vector<Real> with_changes(const Function& f, const std::vector<Real>& points) {
+  /// The points, and where the function changes its sign between them.
+  std::vector<Real> with_changes(Function function, const std::vector<Real>& points) const {
     std::vector<Real> all{points.front()};
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      const Real left = f(points[i]), right = f(points[i + 1]);
+      const Real left = (this->*function)(points[i]).f;
+      const Real right = (this->*function)(points[i + 1]).f;
       if ((left < 0 && right > 0) || (left > 0 && right < 0)) {
-        all.push_back(zero_between(f, points[i], points[i + 1]));
+        all.push_back(zero_between(function, points[i], points[i + 1]));
       }
       all.push_back(points[i + 1]);
     }
     return all;
   }
 
-  Real2 p_, v_, a_;
-  Real d_, rate_;
+  Real2 v_, a_;
+  Real c_, rate_;
+  Real pv_, pa_, vv_, va_, aa_;
 };
 
 template <class S>

@@ -17,7 +17,8 @@ namespace stoss::test {
 
 /// Every crossing of f through zero, in order, of a point that begins inside or outside: inwards
 /// the first t with f(t) <= 0 and falling, outwards the infimum of those with f(t) >= 0 and rising.
-inline std::vector<Real> exact_crossings(const Polynomial& f, bool is_inside) {
+inline std::vector<Real> exact_crossings(const Polynomial& given, bool is_inside) {
+  const Polynomial f = trimmed(given);
   const Polynomial slope = derivative_of(f);
   std::vector<Real> points{Real(0)};
   const Real end = std::max(root_bound(f), root_bound(slope)) + 1;

@@ -226,6 +226,9 @@ void add_load(CLI::App& app, Invocation& invocation) {
                             "stoss load clients/scenes/pool-break.json");
   verb->add_option("SCENE", options->scene, "A .json, .textproto or .binpb file")->required();
   verb->add_flag("--new-ids", options->new_ids, "Let the world assign ids, whatever the file says");
+  verb->add_flag("--bodies-only",
+                 options->bodies_only,
+                 "Load them into a world of another period or other effects, too");
   verb->add_option("--at", options->at, "Instant of the world's clock for all of them [s]");
   verb->callback([&invocation, options] {
     invocation.action = [&global = invocation.global, options] { load(global, *options); };

@@ -4,6 +4,7 @@
 #include "cli/common.hpp"
 #include "cli/features_text.hpp"
 #include "cli/json_object.hpp"
+#include "cli/live_settings.hpp"
 #include "cli/table.hpp"
 
 #include <stoss/client/decimal.hpp>
@@ -50,23 +51,9 @@ void add_features(CLI::App& app, Invocation& invocation) {
 
 // -- effects
 
-/// The settings that a daemon tells among its features.
-std::vector<engine::EffectSetting> settings_in(const std::vector<std::string>& words) {
-  constexpr std::string_view kMark = "setting:";
-  std::vector<engine::EffectSetting> settings;
-  for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    if (word.rfind(kMark, 0) != 0 || equals == std::string::npos) continue;
-    const std::string name = word.substr(kMark.size(), equals - kMark.size());
-    settings.push_back({name, number_of(name, word.substr(equals + 1))});
-  }
-  return settings;
-}
-
 void show(const GlobalOptions& global) {
   const auto session = connect(global);
-  const Answer answer = value_or_throw(session->ask(Query::features()));
-  const auto settings = settings_in(answer.features);
+  const std::vector<engine::EffectSetting> settings = live_settings(*session);
   if (global.json) {
     JsonObject object;
     for (const engine::EffectSetting& setting : settings) {

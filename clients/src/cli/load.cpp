@@ -2,6 +2,7 @@
 #include "cli/load.hpp"
 
 #include "cli/json_object.hpp"
+#include "cli/live_settings.hpp"
 #include "cli/scene_bodies.hpp"
 
 #include <stoss/translate/scene.hpp>
@@ -77,6 +78,7 @@ void load(const GlobalOptions& global, const LoadOptions& options) {
   const std::vector<Piece> pieces = pieces_of(bodies);
   const std::size_t total = bodies.disks.size() + bodies.walls.size() + bodies.zones.size();
   const auto session = connect(global);
+  if (!options.bodies_only) refuse_differences(bodies, *session);
   std::size_t loaded = 0;
   if (options.at.empty()) {
     for (const Piece& piece : pieces) {

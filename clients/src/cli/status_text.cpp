@@ -64,6 +64,10 @@ std::string verified(const Status& s) {
          format_number(s.verify_momentum_error);
 }
 
+std::string period_word(double period) {
+  return period > 0 ? format_number(period) + " m" : "open";
+}
+
 std::string speed_word(double speed) { return std::isinf(speed) ? "max" : format_number(speed); }
 
 }  // namespace
@@ -90,6 +94,7 @@ std::string status_json(const Status& s) {
   add_guards(object, s);
   object.string("arithmetic", arithmetic_name(s))
       .string("broad_phase", s.broad_phase)
+      .object("period", JsonObject().number("x", s.period.x()).number("y", s.period.y()).text())
       .string("version", s.version)
       .string("build", s.build)
       .count("pid", s.pid)
@@ -111,7 +116,12 @@ std::string status_text(const Status& s) {
   line("simulated time", format_instant(s.at) + " s");
   line("tick", std::to_string(s.tick) + " at " + format_number(s.tick_rate) + " Hz");
   line("speed", speed_word(s.speed_reached) + " of " + speed_word(s.speed_asked));
-  line("bodies", std::to_string(s.bodies) + " disks, " + std::to_string(s.walls) + " walls");
+  line("bodies",
+       std::to_string(s.bodies) + " disks, " + std::to_string(s.walls) + " walls" +
+           (s.zones > 0 ? ", " + std::to_string(s.zones) + " zones" : ""));
+  if (s.period != engine::Vector2::Zero()) {
+    line("period", "x " + period_word(s.period.x()) + ", y " + period_word(s.period.y()));
+  }
   line("collisions",
        std::to_string(s.collisions) + " (" + std::to_string(s.regularised) + " regularised, " +
            std::to_string(s.order_dependent) + " order-dependent)");

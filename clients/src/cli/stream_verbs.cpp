@@ -36,10 +36,11 @@ engine::BodyState state_of(const FrameBody& body, const engine::Instant& at) {
   state.velocity = body.velocity;
   state.angle = body.angle;
   state.spin = body.spin;
+  state.radius = body.radius;
   return state;
 }
 
-/// Radii do not travel in frames; the scene has them.
+/// Radii travel in frames where they grow; else the scene has them.
 class Radii {
  public:
   explicit Radii(const Session& session) : feed_(session) {}
@@ -79,7 +80,7 @@ std::string frame_json(const Frame& frame, std::size_t head, Radii& radii) {
   std::string out;
   for (std::size_t i = 0; i < std::min(head, frame.bodies.size()); ++i) {
     engine::BodyState state = state_of(frame.bodies[i], frame.at);
-    state.radius = radii(state.id);
+    if (state.radius == 0) state.radius = radii(state.id);
     append_json(out, state);
     out += '\n';
   }

@@ -25,6 +25,7 @@ struct FrameBody {
   engine::Vector2 velocity = engine::Vector2::Zero();
   double angle = 0;
   double spin = 0;
+  double radius = 0;  ///< m; 0 while none has grown: those of the scene hold
 };
 
 /// All disks at one instant.
