@@ -107,6 +107,14 @@ def loading(results):
                   ["overlaps, neighbours, first events", figure(row, "make_s")]])
 
 
+def daemon(results):
+    lines = [[what, number(row["raw_ns"], 3), number(row["stossd_ns"], 3),
+              number(row["stossd_ns"] / row["raw_ns"], 3)]
+             for what, row in results.get("daemon", {}).items()]
+    return table(["CPU ns of the sender, 10,000 bodies at 60 Hz", "raw DDS", "stossd", "ratio"],
+                 lines)
+
+
 def kernels(results):
     lines = [[name, number(ns, 3)] for name, ns in results["kernel_bench"].items()]
     lines += [[f"{name} events", number(ns, 3)] for name, ns in results["queue_bench"].items()]
@@ -148,6 +156,9 @@ def verdicts(results):
     load = find(results, "load")
     yield (f"loading {load['disks']:,} disks: s" if load else "loading: s",
            load and 1e-9 * load["ns"], 2 if load and load["disks"] == 1_000_000 else 0.2, False)
+    state = results.get("daemon", {}).get("a body's state in a frame")
+    yield ("publishing a body's state: CPU beside raw DDS",
+           state and state["stossd_ns"] / state["raw_ns"], 1.5, False)
     body = gas(100_000)
     yield "bytes a body", body and body["bytes_per_body"], 256, False
 
@@ -164,7 +175,7 @@ def verdict_table(results):
 
 
 BLOCKS = {"circumstances": circumstances, "collisions": collisions, "wrongs": wrongs,
-          "others": others, "resting": resting, "commands": commands, "loading": loading,
+          "others": others, "resting": resting, "commands": commands, "loading": loading, "daemon": daemon,
           "kernels": kernels, "aims": verdict_table}
 
 

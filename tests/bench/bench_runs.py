@@ -135,14 +135,28 @@ def world_row(name, rows):
     return {**figures, **row}
 
 
+def daemon(plan):
+    """What publishing costs beside raw DDS, by publish_bench: ns of CPU of the sending process; none
+    in a quick run, or where the program is not built."""
+    program = plan.build / "tests/publish_bench"
+    if plan.quick or not program.exists():
+        return {}
+    print("bench: publish_bench", file=sys.stderr, flush=True)
+    text = subprocess.run([program, "8"], check=True, capture_output=True, text=True).stdout
+    return {what.strip(): {"raw_ns": float(raw), "stossd_ns": float(ours)}
+            for what, raw, ours in re.findall(r"^(a [a-z' ]+?) +(\d+) +(\d+) +[\d.]+ ", text, re.M)}
+
+
 def run(plan):
     """All of it, as it is written to the results file."""
     results = circumstances(plan)
     options = [flag for flag, on in (("--quick", plan.quick), ("--large", plan.large)) if on]
     worlds = rounds_of(plan, "engine_bench", options)
+    worlds.update(rounds_of(plan, "load_bench", options[:1] if plan.quick else []))
     results["worlds"] = [world_row(name, rows) for name, rows in worlds.items()]
     for program in ("kernel_bench", "queue_bench"):
         found = rounds_of(plan, program)
         results[program] = {name: medians(rows)["cpu_time"] for name, rows in found.items()}
+    results["daemon"] = daemon(plan)
     results["load_after"] = os.getloadavg()[0]
     return results

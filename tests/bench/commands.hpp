@@ -5,7 +5,7 @@
 
 namespace stoss::bench {
 
-/// What a command to one body costs in a world of so many, and reading and making that world.
+/// What a command to one body costs in a world of so many.
 void register_commands(std::size_t disks);
 
 }  // namespace stoss::bench

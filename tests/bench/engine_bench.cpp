@@ -13,6 +13,7 @@
 // engine got wrong; `bytes_per_body` is what it allocated.
 
 #include "bench/commands.hpp"
+#include "bench/options.hpp"
 #include "bench/peer.hpp"
 #include "bench/processor_time.hpp"
 #include "bench/scenes.hpp"
@@ -23,7 +24,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <string>
 #include <vector>
@@ -273,17 +273,6 @@ void register_all(const Budget& budget) {
     add_run(bullet_run, kind.name, [=](auto& state) { run_resting_peer(state, bullet_run, kind); });
   }
   register_commands(resting);
-}
-
-/// Takes an option of this program's own out of the arguments.
-bool take(int& argc, char** argv, const char* option) {
-  char** const end = argv + argc;
-  char** const found =
-      std::find_if(argv + 1, end, [&](const char* word) { return std::strcmp(word, option) == 0; });
-  if (found == end) return false;
-  std::move(found + 1, end, found);
-  --argc;
-  return true;
 }
 
 }  // namespace
