@@ -29,8 +29,11 @@
 #include "periodic.hpp"
 #include "screen.hpp"
 #include "sight.hpp"
+#include "slot_table.hpp"
 #include "world_core.hpp"
 #include "zone_passages.hpp"
+
+#include <stoss/engine/check.hpp>
 
 #include <optional>
 #include <string>
@@ -73,7 +76,7 @@ class BasicWorld final : public WorldCore {
                                     CollisionSink* sink,
                                     std::uint64_t max_events) override;
 
-  bool contains(Id id) const override { return slots_.contains(id); }
+  bool contains(Id id) const override { return find_slot(id) >= 0; }
   Outcome<BodyState> state(Id id) const override;
   Outcome<WallState> wall(Id id) const override;
   void for_each_disk(const std::function<void(const BodyState&)>& visit) const override;
@@ -360,13 +363,16 @@ class BasicWorld final : public WorldCore {
   std::optional<Reject> check_disk(const DiskSpec& spec, std::size_t i) const;
   std::optional<Reject> check_wall(const WallSpec& spec, std::size_t i) const;
   std::optional<Reject> check_new_ids(const SpawnRequest& request) const;
+  std::optional<Reject> check_request(const SpawnRequest& request) const;
   std::optional<Reject> check_targets(std::span<const VectorFor> targets, const char* list) const;
   std::optional<Reject> check_distinct(std::vector<Id> ids, const char* list) const;
   Slot place(const DiskSpec& spec);
   Slot place(const WallSpec& spec);
   Slot take_slot(Id id, BodyType type);
+  void make_room(std::size_t count);
   void release(Slot slot);
   std::optional<Reject> overlap_of(Slot slot, const Place& place) const;
+  bool is_clearly_apart(Slot slot, const Glance& here, Slot other) const;
   Reject in_asked_ids(Reject overlap,
                       const SpawnRequest& request,
                       const std::vector<Id>& made) const;
@@ -386,7 +392,17 @@ class BasicWorld final : public WorldCore {
   }
 
   // basic_world_queries.hpp
-  Slot slot_of(Id id) const { return slots_.at(id); }
+  auto id_of_slot() const {
+    return [this](Slot slot) { return at(slot).id; };
+  }
+  /// Below 0 if there is none.
+  Slot find_slot(Id id) const { return slots_.find(id, id_of_slot()); }
+  /// REQUIRES: there is one.
+  Slot slot_of(Id id) const {
+    const Slot slot = find_slot(id);
+    check(slot >= 0, "a body is named that is not there");
+    return slot;
+  }
   Reject not_found(Id id) const;
   const std::vector<Slot>& ordered_slots() const;
   BodyState state_of(Slot slot) const;
@@ -434,8 +450,9 @@ class BasicWorld final : public WorldCore {
   std::vector<WallShape<S>> shapes_;
   std::vector<Slot> free_slots_;
   std::vector<std::int32_t> free_shapes_;
-  std::unordered_map<Id, Slot> slots_;            // looked up, never iterated
-  std::unordered_map<Slot, Rotation> rotations_;  // of turning disks in a plain world; likewise
+  SlotTable slots_;
+  /// Of turning disks in a plain world; looked up, never iterated.
+  std::unordered_map<Slot, Rotation> rotations_;
   // By slot; empty without a thermostat.
   [[no_unique_address]] std::conditional_t<Laws::kPlain, Nothing, std::vector<Kicks>> kicks_;
   std::size_t walls_in_use_ = 0;

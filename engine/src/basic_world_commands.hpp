@@ -93,15 +93,16 @@ std::optional<Reject> BasicWorld<S, Laws>::check_wall(const WallSpec& spec, std:
 template <class S, class Laws>
 std::optional<Reject> BasicWorld<S, Laws>::check_new_ids(const SpawnRequest& request) const {
   std::vector<std::pair<Id, std::size_t>> asked;
+  asked.reserve(request.disks.size());
   const auto check = [&](Id id, const char* list, std::size_t i) -> std::optional<Reject> {
     if (id == kNoId) return std::nullopt;
-    if (slots_.contains(id) || ledger_.is_retired(id)) {
-      return Reject{.code = Code::AlreadyExists,
-                    .field = detail::field_name(list, i, "id"),
-                    .index = i,
-                    .body = id,
-                    .reason = slots_.contains(id) ? "the id is in use"
-                                                  : "the id was used before and is retired"};
+    if (contains(id) || ledger_.is_retired(id)) {
+      return Reject{
+          .code = Code::AlreadyExists,
+          .field = detail::field_name(list, i, "id"),
+          .index = i,
+          .body = id,
+          .reason = contains(id) ? "the id is in use" : "the id was used before and is retired"};
     }
     if (id == std::numeric_limits<Id>::max()) {
       return detail::invalid(list, i, "id", id, "is the last 64-bit number, which is kept free");
@@ -118,7 +119,7 @@ std::optional<Reject> BasicWorld<S, Laws>::check_new_ids(const SpawnRequest& req
   for (std::size_t i = 0; i < request.zones.size(); ++i) {
     if (auto reject = check(request.zones[i].id, "zones", i)) return reject;
   }
-  std::sort(asked.begin(), asked.end());
+  if (!std::is_sorted(asked.begin(), asked.end())) std::sort(asked.begin(), asked.end());
   const auto twin = std::adjacent_find(
       asked.begin(), asked.end(), [](const auto& x, const auto& y) { return x.first == y.first; });
   if (twin == asked.end()) return std::nullopt;
@@ -129,18 +130,24 @@ std::optional<Reject> BasicWorld<S, Laws>::check_new_ids(const SpawnRequest& req
                 .reason = "the id is asked for twice in one command"};
 }
 
+/// Whether what is asked for is sound in itself, and its ids are free.
 template <class S, class Laws>
-Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request) {
+std::optional<Reject> BasicWorld<S, Laws>::check_request(const SpawnRequest& request) const {
   for (std::size_t i = 0; i < request.disks.size(); ++i) {
-    if (auto reject = check_disk(request.disks[i], i)) return *reject;
+    if (auto reject = check_disk(request.disks[i], i)) return reject;
   }
   for (std::size_t i = 0; i < request.walls.size(); ++i) {
-    if (auto reject = check_wall(request.walls[i], i)) return *reject;
+    if (auto reject = check_wall(request.walls[i], i)) return reject;
   }
   for (std::size_t i = 0; i < request.zones.size(); ++i) {
-    if (auto reject = check_zone(request.zones[i], i)) return *reject;
+    if (auto reject = check_zone(request.zones[i], i)) return reject;
   }
-  if (auto reject = check_new_ids(request)) return *reject;
+  return check_new_ids(request);
+}
+
+template <class S, class Laws>
+Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request) {
+  if (auto reject = check_request(request)) return *reject;
 
   const Id next_id_before = next_id_;
   std::uint64_t unnamed = 0;
@@ -159,8 +166,12 @@ Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request)
                   .field = "id",
                   .reason = "this world has no ids left to assign; ask for free ones by number"};
   }
+  const std::size_t asked = request.disks.size() + request.walls.size() + request.zones.size();
+  make_room(asked);
   std::vector<Slot> placed;
   std::vector<Id> made;
+  placed.reserve(asked);
+  made.reserve(asked);
   const auto admit = [&](const auto& spec, const Place& where) -> std::optional<Reject> {
     const Slot slot = place(spec);
     placed.push_back(slot);
@@ -172,15 +183,16 @@ Outcome<std::vector<Id>> BasicWorld<S, Laws>::spawn(const SpawnRequest& request)
     return overlap;
   };
   std::optional<Reject> reject;
-  for (std::size_t i = 0; i < request.disks.size() && !reject; ++i) {
-    reject = admit(request.disks[i], {"disks", i});
-  }
-  for (std::size_t i = 0; i < request.walls.size() && !reject; ++i) {
-    reject = admit(request.walls[i], {"walls", i});
-  }
-  for (std::size_t i = 0; i < request.zones.size() && !reject; ++i) {
-    reject = admit(request.zones[i], {"zones", i});
-  }
+  const auto admit_all = [&](const auto& specs, const char* list) {
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < specs.size() && !reject; ++i) {
+      if (i + kAhead < specs.size()) slots_.prefetch_place(specs[i + kAhead].id);
+      reject = admit(specs[i], {list, i});
+    }
+  };
+  admit_all(request.disks, "disks");
+  admit_all(request.walls, "walls");
+  admit_all(request.zones, "zones");
   if (reject) {
     for (const Slot slot : placed) release(slot);
     next_id_ = next_id_before;
@@ -220,6 +232,19 @@ Reject BasicWorld<S, Laws>::in_asked_ids(Reject overlap,
   return overlap;
 }
 
+/// Before so many bodies come in at once. A few grow what there is as they come, by doubling.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::make_room(std::size_t count) {
+  if (count <= bodies_.size()) return;
+  const std::size_t all = bodies_.size() + count;
+  bodies_.reserve(all);
+  slots_.reserve(all, id_of_slot());
+  if constexpr (kHasSights<Laws>) sights_.of_slot.reserve(all);
+  digests_.of_slot.reserve(all);
+  digests_.is_stale.reserve(all);
+  digests_.stale.reserve(all);
+}
+
 template <class S, class Laws>
 Slot BasicWorld<S, Laws>::take_slot(Id id, BodyType type) {
   Slot slot;
@@ -237,7 +262,7 @@ Slot BasicWorld<S, Laws>::take_slot(Id id, BodyType type) {
   body.id = id != kNoId ? id : next_id_++;
   body.type = type;
   body.motion.since = now_;
-  slots_.emplace(body.id, slot);
+  slots_.insert(body.id, slot, id_of_slot());
   queue_.admit(slot);
   if constexpr (kHasSights<Laws>) sights_.of_slot.resize(bodies_.size());
   note_digest_stale(slot);
@@ -315,11 +340,20 @@ double BasicWorld<S, Laws>::clearance(Slot a, Slot b, const Which& image) const 
   return static_cast<double>(to_scalar(distance - reach));
 }
 
+/// Two disks of open space without a touch; found in doubles, so a "no" says nothing.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_clearly_apart(Slot slot, const Glance& here, Slot other) const {
+  if (is_periodic() || !at(slot).is_disk() || !at(other).is_disk()) return false;
+  return !disks_are_within(here, glance_of(other), reach_of(slot, other), kScreenSlack<S>);
+}
+
 template <class S, class Laws>
 std::optional<Reject> BasicWorld<S, Laws>::overlap_of(Slot slot, const Place& place) const {
   Id worst = kNoId;
   double deepest = 0;
+  const Glance here = glance_of(slot);
   for_each_neighbour_image(slot, [&](Slot other, const Which& image) {
+    if (is_clearly_apart(slot, here, other)) return;
     const double gap = clearance(slot, other, image);
     if (gap >= -kOverlapTolerance * reach_of(slot, other)) return;
     const Id id = at(other).id;
@@ -462,7 +496,7 @@ void BasicWorld<S, Laws>::release(Slot slot) {
   });
   for (const Slot other : meeting) queue_.erase(other, id_lookup());
   leave_lists(slot);
-  slots_.erase(at(slot).id);
+  slots_.erase(at(slot).id, id_of_slot());
   rotations_.erase(slot);
   set_rest_images(slot, {});
   at(slot).id = kNoId;
@@ -490,7 +524,7 @@ std::optional<Reject> BasicWorld<S, Laws>::check_distinct(std::vector<Id> ids,
 template <class S, class Laws>
 Outcome<Done> BasicWorld<S, Laws>::remove(std::span<const Id> ids) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (slots_.contains(ids[i])) continue;
+    if (contains(ids[i])) continue;
     return Reject{.code = Code::NotFound,
                   .field = detail::field_name("ids", i, ""),
                   .index = i,
@@ -509,7 +543,7 @@ Outcome<Done> BasicWorld<S, Laws>::remove(std::span<const Id> ids) {
     ledger_.retire(id);
   }
   for (const Id id : woken) {
-    if (slots_.contains(id)) predict(slot_of(id), /*changed=*/true);
+    if (contains(id)) predict(slot_of(id), /*changed=*/true);
   }
   crowd_ = 0;
   return Done{};
@@ -522,7 +556,7 @@ std::optional<Reject> BasicWorld<S, Laws>::check_targets(std::span<const VectorF
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const VectorFor& target = targets[i];
     ids.push_back(target.id);
-    if (!slots_.contains(target.id)) {
+    if (!contains(target.id)) {
       return Reject{.code = Code::NotFound,
                     .field = detail::field_name(list, i, "id"),
                     .index = i,

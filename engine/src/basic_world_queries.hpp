@@ -68,16 +68,16 @@ WallState BasicWorld<S, Laws>::wall_of(Slot slot) const {
 
 template <class S, class Laws>
 Outcome<BodyState> BasicWorld<S, Laws>::state(Id id) const {
-  const auto found = slots_.find(id);
-  if (found == slots_.end() || !at(found->second).is_disk()) return not_found(id);
-  return state_of(found->second);
+  const Slot found = find_slot(id);
+  if (found < 0 || !at(found).is_disk()) return not_found(id);
+  return state_of(found);
 }
 
 template <class S, class Laws>
 Outcome<WallState> BasicWorld<S, Laws>::wall(Id id) const {
-  const auto found = slots_.find(id);
-  if (found == slots_.end() || !at(found->second).is_wall()) return not_found(id);
-  return wall_of(found->second);
+  const Slot found = find_slot(id);
+  if (found < 0 || !at(found).is_wall()) return not_found(id);
+  return wall_of(found);
 }
 
 template <class S, class Laws>
@@ -287,43 +287,43 @@ std::optional<RayHit> BasicWorld<S, Laws>::ray(const Vector2& origin,
 
 template <class S, class Laws>
 Outcome<MotionRecord> BasicWorld<S, Laws>::motion(Id id) const {
-  const auto found = slots_.find(id);
-  if (found == slots_.end() || is_zone(found->second)) return not_found(id);
-  MotionRecord record = to_record(id, at(found->second).motion);
-  const Rotation rotation = rotation_of(found->second);
+  const Slot found = find_slot(id);
+  if (found < 0 || is_zone(found)) return not_found(id);
+  MotionRecord record = to_record(id, at(found).motion);
+  const Rotation rotation = rotation_of(found);
   record.angle = rotation.angle;
   record.spin = rotation.spin;
-  const bool is_pulled = Laws::kCurved && (!Laws::kDragged || at(found->second).is_dynamic());
+  const bool is_pulled = Laws::kCurved && (!Laws::kDragged || at(found).is_dynamic());
   if constexpr (Laws::kCurved) {
     if (is_pulled) {
-      record.ax = to_split(at(found->second).acceleration.x);
-      record.ay = to_split(at(found->second).acceleration.y);
+      record.ax = to_split(at(found).acceleration.x);
+      record.ay = to_split(at(found).acceleration.y);
     }
   }
   if constexpr (Laws::kDragged) {
     if (is_pulled) record.drag = static_cast<double>(laws_.drag);
   }
   if constexpr (Laws::kGrows) {
-    record.radius = to_split(at(found->second).grown);
-    record.growth = growth_of(found->second);
+    record.radius = to_split(at(found).grown);
+    record.growth = growth_of(found);
   }
   return record;
 }
 
 template <class S, class Laws>
 Outcome<BodyRecord> BasicWorld<S, Laws>::body(Id id) const {
-  const auto found = slots_.find(id);
-  if (found == slots_.end() || is_zone(found->second)) return not_found(id);
-  const Body<S, Laws>& b = at(found->second);
+  const Slot found = find_slot(id);
+  if (found < 0 || is_zone(found)) return not_found(id);
+  const Body<S, Laws>& b = at(found);
   BodyRecord record;
   record.id = id;
   record.is_wall = b.is_wall();
   if (b.is_wall()) {
-    record.edge_x = to_split(shape(found->second).edge.x);
-    record.edge_y = to_split(shape(found->second).edge.y);
+    record.edge_x = to_split(shape(found).edge.x);
+    record.edge_y = to_split(shape(found).edge.y);
   } else {
     record.kind = kind_of(b.type);
-    record.radius = radius_now(found->second);
+    record.radius = radius_now(found);
     record.mass = static_cast<double>(b.mass);
   }
   return record;

@@ -148,7 +148,7 @@ void BasicWorld<S, Laws>::settle_down(const Contact& contact) {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_rest(Slot slot) {
   Body<S, Laws>& body = at(slot);
-  const Slot support = slots_.at(body.support);
+  const Slot support = slot_of(body.support);
   body.acceleration = wind_on(support);
   if (body.second_support != kNoId) return;
   const DoubleWord2<S>& edge = shape(support).edge;
@@ -171,13 +171,13 @@ bool BasicWorld<S, Laws>::has_sound_supports([[maybe_unused]] Slot slot) const {
   if constexpr (Laws::kCurved) {
     const Body<S, Laws>& body = at(slot);
     const auto is_fixed = [this](Id id) {
-      const auto found = slots_.find(id);
-      return found != slots_.end() && !at(found->second).is_dynamic();
+      const Slot found = find_slot(id);
+      return found >= 0 && !at(found).is_dynamic();
     };
     if (body.support == kNoId) return body.second_support == kNoId;
     if (!body.is_dynamic() || !is_fixed(body.support)) return false;
     if (body.second_support != kNoId) return is_fixed(body.second_support);
-    return at(slots_.at(body.support)).is_wall();
+    return at(slot_of(body.support)).is_wall();
   } else {
     return true;
   }

@@ -202,9 +202,9 @@ ZoneState BasicWorld<S, Laws>::zone_of(Slot slot) const {
 
 template <class S, class Laws>
 Outcome<ZoneState> BasicWorld<S, Laws>::zone(Id id) const {
-  const auto found = slots_.find(id);
-  if (found == slots_.end() || !is_zone(found->second)) return not_found(id);
-  return zone_of(found->second);
+  const Slot found = find_slot(id);
+  if (found < 0 || !is_zone(found)) return not_found(id);
+  return zone_of(found);
 }
 
 template <class S, class Laws>
@@ -217,8 +217,8 @@ void BasicWorld<S, Laws>::for_each_zone(const std::function<void(const ZoneState
 
 template <class S, class Laws>
 Outcome<std::vector<Id>> BasicWorld<S, Laws>::inside(Id zone) const {
-  const auto found = slots_.find(zone);
-  if (found == slots_.end() || !is_zone(found->second)) return not_found(zone);
+  const Slot found = find_slot(zone);
+  if (found < 0 || !is_zone(found)) return not_found(zone);
   std::vector<Id> disks;
   if constexpr (!Laws::kPlain) {
     for (const Slot slot : ordered_slots()) {
@@ -290,9 +290,9 @@ template <class S, class Laws>
 bool BasicWorld<S, Laws>::has_sound_passages([[maybe_unused]] Slot slot) const {
   if constexpr (!Laws::kPlain) {
     for (const Passage<S>& passage : passages_.of(slot)) {
-      const auto found = slots_.find(passage.zone);
-      if (found == slots_.end() || !is_zone(found->second)) return false;
-      if (passage.since < at(found->second).motion.since) return false;
+      const Slot found = find_slot(passage.zone);
+      if (found < 0 || !is_zone(found)) return false;
+      if (passage.since < at(found).motion.since) return false;
     }
   }
   return true;

@@ -3,10 +3,11 @@
 // is finite and in its range, that no id is given twice.
 #include "scene_check.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace stoss::idl {
 namespace {
@@ -21,40 +22,53 @@ struct Failure {
   throw Failure{std::move(field), std::move(reason)};
 }
 
+// What a field's name begins with; made into text only when something is wrong, for scenes have a
+// million bodies.
+struct Prefix {
+  const char* list = "";
+  int index = -1;  // of the body; -1: `list` is all of it
+
+  [[nodiscard]] std::string text() const {
+    return index < 0 ? list : list + ('[' + std::to_string(index) + "].");
+  }
+};
+
+std::string operator+(const Prefix& prefix, const char* name) { return prefix.text() + name; }
+
 std::string shown(double value) {
   constexpr std::size_t kRoom = 32;
   char room[kRoom];
   return {room, std::to_chars(room, room + kRoom, value).ptr};
 }
 
-void finite(const std::string& prefix, const char* name, double value) {
+void finite(const Prefix& prefix, const char* name, double value) {
   if (!std::isfinite(value)) fail(prefix + name, "must be finite, but is " + shown(value));
 }
 
-void finite(const std::string& prefix, const char* name, const Vector2& value) {
+void finite(const Prefix& prefix, const char* name, const Vector2& value) {
   if (!std::isfinite(value.x()) || !std::isfinite(value.y())) {
     fail(prefix + name,
          "must be finite, but is (" + shown(value.x()) + ", " + shown(value.y()) + ")");
   }
 }
 
-void missing(const std::string& prefix, const char* name, const char* hint) {
+void missing(const Prefix& prefix, const char* name, const char* hint) {
   fail(prefix + name, std::string("is missing; ") + hint);
 }
 
-void positive(const std::string& prefix, const char* name, double value) {
+void positive(const Prefix& prefix, const char* name, double value) {
   if (!(value > 0) || !std::isfinite(value)) {
     fail(prefix + name, "must be finite and greater than 0, but is " + shown(value));
   }
 }
 
-void at_least_zero(const std::string& prefix, const char* name, double value) {
+void at_least_zero(const Prefix& prefix, const char* name, double value) {
   if (!(value >= 0) || !std::isfinite(value)) {
     fail(prefix + name, "must be finite and at least 0, but is " + shown(value));
   }
 }
 
-void between(const std::string& prefix, const char* name, double value, double low, double high) {
+void between(const Prefix& prefix, const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high)) {
     fail(prefix + name,
          "must be between " + shown(low) + " and " + shown(high) + ", but is " + shown(value));
@@ -62,7 +76,7 @@ void between(const std::string& prefix, const char* name, double value, double l
 }
 
 // Names cross DDS as bounded C strings.
-void check_name(const std::string& prefix, const std::string& name) {
+void check_name(const Prefix& prefix, const std::string& name) {
   if (name.size() > stoss_v1_MAX_NAME_LENGTH) {
     fail(prefix + "name",
          "must be at most " + std::to_string(stoss_v1_MAX_NAME_LENGTH) + " bytes long, but has " +
@@ -71,7 +85,7 @@ void check_name(const std::string& prefix, const std::string& name) {
   if (name.find('\0') != std::string::npos) fail(prefix + "name", "must not hold a zero byte");
 }
 
-void check_disk(const Disk& disk, const std::string& prefix) {
+void check_disk(const Disk& disk, const Prefix& prefix) {
   check_name(prefix, disk.name());
   if (!Disk::Kind_IsValid(disk.kind())) {
     fail(prefix + "kind",
@@ -94,7 +108,7 @@ void check_disk(const Disk& disk, const std::string& prefix) {
   }
 }
 
-void check_wall(const Wall& wall, const std::string& prefix) {
+void check_wall(const Wall& wall, const Prefix& prefix) {
   check_name(prefix, wall.name());
   if (!wall.has_start()) missing(prefix, "start", "a wall needs both ends, as {x, y} in metres");
   if (!wall.has_end()) missing(prefix, "end", "a wall needs both ends, as {x, y} in metres");
@@ -106,7 +120,7 @@ void check_wall(const Wall& wall, const std::string& prefix) {
   }
 }
 
-void check_zone(const Zone& zone, const std::string& prefix) {
+void check_zone(const Zone& zone, const Prefix& prefix) {
   check_name(prefix, zone.name());
   if (!zone.has_center()) missing(prefix, "center", "a zone needs its centre, as {x, y} in metres");
   finite(prefix, "center", zone.center());
@@ -115,7 +129,7 @@ void check_zone(const Zone& zone, const std::string& prefix) {
 }
 
 void check_restitution(const Restitution& effect) {
-  const std::string prefix = "effects.restitution.";
+  const Prefix prefix{"effects.restitution."};
   if (!effect.has_coefficient()) missing(prefix, "coefficient", "it is between 0 and 1");
   between(prefix, "coefficient", effect.coefficient(), 0, 1);
   if (effect.has_wall_coefficient()) {
@@ -126,7 +140,7 @@ void check_restitution(const Restitution& effect) {
 }
 
 void check_thermostat(const Thermostat& effect) {
-  const std::string prefix = "effects.thermostat.";
+  const Prefix prefix{"effects.thermostat."};
   if (!effect.has_temperature()) missing(prefix, "temperature", "it is at least 0 joules");
   at_least_zero(prefix, "temperature", effect.temperature());
   if (!effect.has_rate()) missing(prefix, "rate", "it is at least 0 per second");
@@ -134,7 +148,7 @@ void check_thermostat(const Thermostat& effect) {
 }
 
 void check_rough(const Rough& effect) {
-  const std::string prefix = "effects.rough.";
+  const Prefix prefix{"effects.rough."};
   if (!effect.has_tangential_restitution()) {
     missing(prefix, "tangential_restitution", "it is between -1 (smooth) and 1");
   }
@@ -146,25 +160,26 @@ void check_rough(const Rough& effect) {
 void check_effects(const Effects& effects) {
   if (effects.has_gravity()) {
     const Gravity& gravity = effects.gravity();
-    const std::string prefix = "effects.gravity.";
+    const Prefix prefix{"effects.gravity."};
     if (!gravity.has_acceleration()) missing(prefix, "acceleration", "it is {x, y} in m/s^2");
     finite(prefix, "acceleration", gravity.acceleration());
   }
   if (effects.has_drag()) {
-    if (!effects.drag().has_rate()) missing("effects.drag.", "rate", "it is at least 0 per second");
-    at_least_zero("effects.drag.", "rate", effects.drag().rate());
+    if (!effects.drag().has_rate())
+      missing({"effects.drag."}, "rate", "it is at least 0 per second");
+    at_least_zero({"effects.drag."}, "rate", effects.drag().rate());
   }
   if (effects.has_floor_friction()) {
     const FloorFriction& friction = effects.floor_friction();
-    const std::string prefix = "effects.floor_friction.";
+    const Prefix prefix{"effects.floor_friction."};
     if (!friction.has_deceleration()) missing(prefix, "deceleration", "it is at least 0 m/s^2");
     at_least_zero(prefix, "deceleration", friction.deceleration());
   }
   if (effects.has_restitution()) check_restitution(effects.restitution());
   if (effects.has_rough()) check_rough(effects.rough());
   if (effects.has_growth()) {
-    if (!effects.growth().has_rate()) missing("effects.growth.", "rate", "it is at least 0 m/s");
-    at_least_zero("effects.growth.", "rate", effects.growth().rate());
+    if (!effects.growth().has_rate()) missing({"effects.growth."}, "rate", "it is at least 0 m/s");
+    at_least_zero({"effects.growth."}, "rate", effects.growth().rate());
   }
   if (effects.has_thermostat()) check_thermostat(effects.thermostat());
 }
@@ -172,37 +187,70 @@ void check_effects(const Effects& effects) {
 // Every id of a scene and who has it.
 class Ids {
  public:
-  void add(std::uint64_t id, const std::string& prefix) {
-    if (id == 0) return;
-    const auto [holder, fresh] = holders_.emplace(id, prefix);
-    if (!fresh) {
-      const std::string other = holder->second.substr(0, holder->second.size() - 1);
-      fail(prefix + "id", "is " + std::to_string(id) + ", which " + other + " has already");
+  void add(std::uint64_t id, const Prefix& prefix) {
+    if (id != 0) holders_.push_back({id, prefix});
+  }
+
+  // Fails for the first body with an id that one before it has. Most scenes count their bodies
+  // upwards, and are done at a glance.
+  void check() const {
+    const auto is_not_above = [](const Holder& x, const Holder& y) { return y.id <= x.id; };
+    if (std::adjacent_find(holders_.begin(), holders_.end(), is_not_above) == holders_.end()) {
+      return;
     }
+    std::vector<std::pair<std::uint64_t, std::size_t>> order;
+    for (const Holder& holder : holders_) order.emplace_back(holder.id, order.size());
+    std::sort(order.begin(), order.end());
+    std::size_t twin = holders_.size();
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      if (order[i].first != order[i - 1].first || order[i].second >= twin) continue;
+      twin = order[i].second;
+      first = order[i - 1].second;
+    }
+    if (twin == holders_.size()) return;
+    std::string other = holders_[first].prefix.text();
+    other.pop_back();
+    fail(holders_[twin].prefix + "id",
+         "is " + std::to_string(holders_[twin].id) + ", which " + other + " has already");
   }
 
  private:
-  std::unordered_map<std::uint64_t, std::string> holders_;
+  struct Holder {
+    std::uint64_t id;
+    Prefix prefix;
+  };
+  std::vector<Holder> holders_;
 };
 
 template <class List, class Check>
-void check_list(const List& list, const std::string& name, Ids& ids, Check check) {
+void check_list(const List& list, const char* name, Ids& ids, Check check) {
   for (int i = 0; i < list.size(); ++i) {
-    const std::string prefix = name + '[' + std::to_string(i) + "].";
+    const Prefix prefix{name, i};
     check(list[i], prefix);
     ids.add(list[i].id(), prefix);
   }
 }
 
-void check_all(const Scene& scene) {
-  check_name("", scene.name());
+void check_bodies(const Scene& scene) {
   Ids ids;
-  check_list(scene.disks(), "disks", ids, check_disk);
-  check_list(scene.walls(), "walls", ids, check_wall);
-  check_list(scene.zones(), "zones", ids, check_zone);
+  try {
+    check_list(scene.disks(), "disks", ids, check_disk);
+    check_list(scene.walls(), "walls", ids, check_wall);
+    check_list(scene.zones(), "zones", ids, check_zone);
+  } catch (const Failure&) {
+    ids.check();  // what is wrong with an earlier body is told first
+    throw;
+  }
+  ids.check();
+}
+
+void check_all(const Scene& scene) {
+  check_name({}, scene.name());
+  check_bodies(scene);
   check_effects(scene.effects());
-  at_least_zero("period.", "x", scene.period().x());
-  at_least_zero("period.", "y", scene.period().y());
+  at_least_zero({"period."}, "x", scene.period().x());
+  at_least_zero({"period."}, "y", scene.period().y());
 }
 
 template <class List>

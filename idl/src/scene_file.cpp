@@ -15,6 +15,8 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <unordered_map>
+#include <vector>
 
 namespace stoss::idl {
 namespace {
@@ -81,27 +83,47 @@ std::optional<SceneError> read_text(std::string_view content,
   return error;
 }
 
-// The path of the first field in `message` that its type does not have, or nothing.
-std::optional<std::string> unknown_field(const Message& message) {
-  const Reflection& reflection = *message.GetReflection();
-  const google::protobuf::UnknownFieldSet& unknown = reflection.GetUnknownFields(message);
-  if (!unknown.empty()) return "field number " + std::to_string(unknown.field(0).number());
-  std::vector<const FieldDescriptor*> fields;
-  reflection.ListFields(message, &fields);
-  for (const FieldDescriptor* field : fields) {
-    if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) continue;
-    const int count = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
-    for (int i = 0; i < count; ++i) {
-      const Message& inner = field->is_repeated() ? reflection.GetRepeatedMessage(message, field, i)
-                                                  : reflection.GetMessage(message, field);
-      const std::optional<std::string> found = unknown_field(inner);
-      if (!found) continue;
-      const std::string index = field->is_repeated() ? '[' + std::to_string(i) + ']' : "";
-      return field->name() + index + '.' + *found;
+// Looks for fields that a message's type does not have. Of each type it knows which fields hold
+// messages: to ask a million disks for all fields that they have would take longer than reading
+// them.
+class UnknownFields {
+ public:
+  // The path of the first one in `message`, or nothing.
+  std::optional<std::string> find_in(const Message& message) {
+    const Reflection& reflection = *message.GetReflection();
+    const google::protobuf::UnknownFieldSet& unknown = reflection.GetUnknownFields(message);
+    if (!unknown.empty()) return "field number " + std::to_string(unknown.field(0).number());
+    for (const FieldDescriptor* field : message_fields(message)) {
+      if (field->is_repeated()) {
+        for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
+          const auto found = find_in(reflection.GetRepeatedMessage(message, field, i));
+          if (found) return field->name() + '[' + std::to_string(i) + "]." + *found;
+        }
+      } else if (reflection.HasField(message, field)) {
+        const auto found = find_in(reflection.GetMessage(message, field));
+        if (found) return field->name() + '.' + *found;
+      }
     }
+    return std::nullopt;
   }
-  return std::nullopt;
-}
+
+ private:
+  using Fields = std::vector<const FieldDescriptor*>;
+
+  const Fields& message_fields(const Message& message) {
+    const google::protobuf::Descriptor* const type = message.GetDescriptor();
+    const auto [entry, is_new] = fields_of_.try_emplace(type);
+    if (is_new) {
+      for (int i = 0; i < type->field_count(); ++i) {
+        const FieldDescriptor* const field = type->field(i);
+        if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) entry->second.push_back(field);
+      }
+    }
+    return entry->second;
+  }
+
+  std::unordered_map<const google::protobuf::Descriptor*, Fields> fields_of_;
+};
 
 std::optional<SceneError> read_binary(std::string_view content,
                                       const std::string& file,
@@ -110,7 +132,7 @@ std::optional<SceneError> read_binary(std::string_view content,
     return error_of(
         file, Code::kInvalidArgument, "is not a stoss.Scene in Protobuf's binary format");
   }
-  const std::optional<std::string> unknown = unknown_field(scene);
+  const std::optional<std::string> unknown = UnknownFields().find_in(scene);
   if (!unknown) return std::nullopt;
   SceneError error = error_of(file, Code::kInvalidArgument, "is not known to this version");
   error.field = *unknown;

@@ -27,7 +27,8 @@ std::span<const T> slice(const std::vector<T>& column, std::size_t chunk, std::s
 void ScenePort::publish_if_due(const Picture& picture, Nanoseconds now) {
   if (published_ == picture.scene_version() || now < next_) return;
   published_ = picture.scene_version();
-  next_ = now + kSceneInterval;
+  const auto bodies = static_cast<std::int64_t>(picture.size());
+  next_ = now + std::max(kSceneInterval, kSceneIntervalPerBody * bodies);
   publish(picture);
 }
 

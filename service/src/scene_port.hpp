@@ -14,6 +14,9 @@ namespace stoss::service {
 
 /// Changes of the scene are gathered for this long before it is published again.
 inline constexpr Nanoseconds kSceneInterval{250'000'000};
+/// ... and for so long a body, some five times of what publishing it costs: bodies that come and go
+/// in a world of a million must not keep the publisher at nothing else.
+inline constexpr Nanoseconds kSceneIntervalPerBody{2'000};
 
 class ScenePort {
  public:
@@ -23,7 +26,8 @@ class ScenePort {
 
   /// The scene's own name, for people.
   void set_scene_name(std::string name) { scene_name_ = std::move(name); }
-  /// Publishes the scene if it has changed, and not sooner than kSceneInterval after the last time.
+  /// Publishes the scene if it has changed, and not sooner after the last time than the intervals
+  /// above say.
   void publish_if_due(const Picture& picture, Nanoseconds now);
 
   [[nodiscard]] std::uint64_t version() const { return version_; }

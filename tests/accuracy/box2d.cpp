@@ -1,35 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accuracy/engine_run.hpp"
 #include "accuracy/engines.hpp"
+#include "support/box2d_bodies.hpp"
 
 #include <box2d/box2d.h>
 
 #include <memory>
-#include <numbers>
 #include <set>
 
 namespace stoss::tests {
 namespace {
-
-// As its manual recommends.
-constexpr int kVelocityIterations = 8;
-constexpr int kPositionIterations = 3;
-
-b2Vec2 to_box2d(const engine::Vector2& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y())};
-}
-
-b2BodyType type_of(engine::BodyKind kind) {
-  switch (kind) {
-    case engine::BodyKind::Dynamic:
-      return b2_dynamicBody;
-    case engine::BodyKind::Kinematic:
-      return b2_kinematicBody;
-    case engine::BodyKind::Static:
-      return b2_staticBody;
-  }
-  return b2_staticBody;
-}
 
 /// What a fixture's user data points at.
 struct Tag {
@@ -45,13 +25,18 @@ class Box2DRun final : public EngineRun, private b2ContactListener {
     world_.SetContinuousPhysics(true);
     world_.SetContactListener(this);
     tags_.reserve(disks_.size() + walls_.size());
-    for (const engine::DiskSpec& disk : disks_) add(disk);
-    for (const engine::WallSpec& wall : walls_) add(wall);
+    for (const engine::DiskSpec& disk : disks_) {
+      made_.push_back(test::add_to_box2d(world_, disk, {.tag = tag_for({disk.id, false})}));
+    }
+    for (const engine::WallSpec& wall : walls_) {
+      test::add_to_box2d(world_, wall, tag_for({wall.id, true}));
+    }
   }
 
  private:
   void take_step(double dt) override {
-    world_.Step(static_cast<float>(dt), kVelocityIterations, kPositionIterations);
+    world_.Step(
+        static_cast<float>(dt), test::kBox2DVelocityIterations, test::kBox2DPositionIterations);
     for (std::size_t i = 0; i < disks_.size(); ++i) {
       const b2Vec2 place = made_[i]->GetPosition();
       const b2Vec2 velocity = made_[i]->GetLinearVelocity();
@@ -79,43 +64,8 @@ class Box2DRun final : public EngineRun, private b2ContactListener {
     return reinterpret_cast<const Tag*>(fixture->GetUserData().pointer);
   }
 
-  b2FixtureDef fixture(const b2Shape& shape, const Tag& tag) {
-    b2FixtureDef definition;
-    definition.shape = &shape;
-    definition.friction = 0;
-    definition.restitution = 1;
-    definition.restitutionThreshold = 0;
-    definition.userData.pointer = reinterpret_cast<uintptr_t>(&tags_.emplace_back(tag));
-    return definition;
-  }
-
-  void add(const engine::DiskSpec& disk) {
-    b2BodyDef definition;
-    definition.type = type_of(disk.kind);
-    definition.position = to_box2d(disk.position);
-    definition.linearVelocity = to_box2d(disk.velocity);
-    definition.bullet = true;
-    definition.allowSleep = false;
-    definition.fixedRotation = true;
-    b2Body* const body = world_.CreateBody(&definition);
-    b2CircleShape circle;
-    circle.m_radius = static_cast<float>(disk.radius);
-    b2FixtureDef part = fixture(circle, {disk.id, false});
-    part.density = static_cast<float>(disk.mass / (std::numbers::pi * disk.radius * disk.radius));
-    body->CreateFixture(&part);
-    made_.push_back(body);
-  }
-
-  void add(const engine::WallSpec& wall) {
-    b2BodyDef definition;
-    const bool moves = wall.velocity.norm() > 0;
-    definition.type = moves ? b2_kinematicBody : b2_staticBody;
-    definition.linearVelocity = to_box2d(wall.velocity);
-    b2Body* const body = world_.CreateBody(&definition);
-    b2EdgeShape edge;
-    edge.SetTwoSided(to_box2d(wall.start), to_box2d(wall.end));
-    const b2FixtureDef part = fixture(edge, {wall.id, true});
-    body->CreateFixture(&part);
+  std::uintptr_t tag_for(const Tag& tag) {
+    return reinterpret_cast<std::uintptr_t>(&tags_.emplace_back(tag));
   }
 
   b2World world_;

@@ -8,12 +8,11 @@
 // --write: puts the table between the lines "<!-- cost table -->" and "<!-- end -->" of FILE.
 
 #include "bench/gas_run.hpp"
+#include "bench/processor_time.hpp"
 #include "laws.hpp"
 #include "support/random.hpp"
 
 #include <stoss/engine/world.hpp>
-
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -37,18 +36,13 @@ namespace {
 using namespace stoss::engine;
 using stoss::bench::Advance;
 using stoss::bench::Start;
+using stoss::bench::processor_seconds;
 
 constexpr double kPull = 0.05;          // m/s^2: a quarter of the gas's energy over its box
 constexpr double kDeceleration = 1e-3;  // m/s^2: the gas moves on through all rounds
 constexpr double kDragRate = 1e-3;      // 1/s
 constexpr double kGrowthRate = 1e-7;    // m/s: the area fraction stays what it is
 constexpr double kAreaFraction = 0.3;
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Row {
   std::string name;

@@ -8,8 +8,7 @@
 // --check: exit status 1 if a ratio to the textbook contact formulas is above 1.25.
 
 #include "bench/gas_run.hpp"
-
-#include <time.h>
+#include "bench/processor_time.hpp"
 
 #include <algorithm>
 #include <array>
@@ -32,14 +31,10 @@ bench::Advance make_gas_run(int columns, double area_fraction);
 
 namespace {
 
+using stoss::bench::processor_seconds;
+
 constexpr double kRatioMax = 1.25;
 constexpr std::size_t kEngines = 3;
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// ns per collision of each engine, in each round.
 using Rounds = std::vector<std::array<double, kEngines>>;

@@ -297,6 +297,36 @@ class StoryTeller {
     return story;
   }
 
+  /// Dozens of disks of radii up to 1:1000, fixed ones among them, with resting, moving and bent
+  /// walls, in a box or in open space; bodies come, go and change their velocities all the time.
+  Story crowd() {
+    const bool is_open = random_.one_in(3);
+    Story story = boxed(is_open ? "open crowd" : "crowd");
+    if (is_open) story.walls.clear();
+    Vector2 from(random_.uniform(-6, 6), random_.uniform(-6, 6));
+    const std::uint64_t bends = random_.below(5);
+    for (Id id = 1100; id < 1100 + bends; ++id) {
+      const Vector2 to = from + 3 * random_velocity();
+      story.walls.push_back(wall(id, from, to));
+      from = to;
+    }
+    const std::uint64_t pistons = random_.below(3);
+    for (Id id = 1200; id < 1200 + pistons; ++id) {
+      const Vector2 start(random_.uniform(-8, 8), random_.uniform(-8, 8));
+      story.walls.push_back(
+          wall(id, start, start + Vector2(2, random_.uniform(-2, 2)), 0.3 * random_velocity()));
+    }
+    scatter(story, 10 + random_.below(random_.one_in(8) ? 150 : 50), 10, 12);
+    if (is_open && random_.one_in(2)) {  // they fall in on each other, and fly apart
+      for (DiskSpec& d : story.disks) {
+        if (d.kind == engine::BodyKind::Dynamic) d.velocity -= 0.3 * d.position;
+      }
+    }
+    story.length = random_.uniform(1, 6);
+    add_commands(story, 6 + random_.below(24));
+    return story;
+  }
+
   /// Each kind in turn.
   Story any() {
     switch (turn_++ % kKinds) {
