@@ -23,8 +23,13 @@ def find(results, scene, engine="stoss", disks=None, **others):
     return None
 
 
-def figure(row, key, digits=3, factor=1):
-    return number(factor * row[key], digits) if row and key in row else "–"
+def plain(value):
+    """Three digits, and no power of ten for what is large."""
+    return f"{value:,.0f}" if value is not None and abs(value) >= 100 else number(value, 3)
+
+
+def figure(row, key, factor=1):
+    return plain(factor * row[key]) if row and key in row else "–"
 
 
 def whole(row, key, factor=1):
@@ -63,7 +68,7 @@ def wrongs(results):
                      area_fraction=row["area_fraction"])
         ratio = row["ms_per_free_time"] / exact["ms_per_free_time"] if exact else None
         lines.append([row["scene"], f"{row['disks']:,}", f"{row['area_fraction']:g}",
-                      row["engine"], figure(row, "ms_per_free_time"), number(ratio, 3),
+                      row["engine"], figure(row, "ms_per_free_time"), plain(ratio),
                       f"{100 * row['missed']:.1f} %", number(row["energy_error"]),
                       number(row["overlap"])])
     return table(["world", "disks", "area fraction", "engine", "ms a mean free time",
@@ -108,16 +113,16 @@ def loading(results):
 
 
 def daemon(results):
-    lines = [[what, number(row["raw_ns"], 3), number(row["stossd_ns"], 3),
-              number(row["stossd_ns"] / row["raw_ns"], 3)]
+    lines = [[what, plain(row["raw_ns"]), plain(row["stossd_ns"]),
+              plain(row["stossd_ns"] / row["raw_ns"])]
              for what, row in results.get("daemon", {}).items()]
     return table(["CPU ns of the sender, 10,000 bodies at 60 Hz", "raw DDS", "stossd", "ratio"],
                  lines)
 
 
 def kernels(results):
-    lines = [[name, number(ns, 3)] for name, ns in results["kernel_bench"].items()]
-    lines += [[f"{name} events", number(ns, 3)] for name, ns in results["queue_bench"].items()]
+    lines = [[name, plain(ns)] for name, ns in results["kernel_bench"].items()]
+    lines += [[f"{name} events", plain(ns)] for name, ns in results["queue_bench"].items()]
     return table(["kernel or queue", "ns"], lines)
 
 
@@ -169,7 +174,7 @@ def verdict_table(results):
         if value is None:
             continue
         met = value >= limit if above else value <= limit
-        lines.append([what, number(value, 3), f"{'≥' if above else '≤'} {limit:g}",
+        lines.append([what, plain(value), f"{'≥' if above else '≤'} {limit:g}",
                       "met" if met else "not met"])
     return table(["aim", "measured", "limit", ""], lines)
 
