@@ -180,8 +180,8 @@ def verdict_table(results):
 
 
 BLOCKS = {"circumstances": circumstances, "collisions": collisions, "wrongs": wrongs,
-          "others": others, "resting": resting, "commands": commands, "loading": loading, "daemon": daemon,
-          "kernels": kernels, "aims": verdict_table}
+          "others": others, "resting": resting, "commands": commands, "loading": loading,
+          "daemon": daemon, "kernels": kernels, "aims": verdict_table}
 
 
 def page(results):

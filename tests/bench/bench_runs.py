@@ -136,15 +136,15 @@ def world_row(name, rows):
 
 
 def daemon(plan):
-    """What publishing costs beside raw DDS, by publish_bench: ns of CPU of the sending process; none
-    in a quick run, or where the program is not built."""
+    """What publishing costs beside raw DDS, by publish_bench: ns of CPU of the sending process.
+    Nothing in a quick run, or where the program is not built."""
     program = plan.build / "tests/publish_bench"
     if plan.quick or not program.exists():
         return {}
     print("bench: publish_bench", file=sys.stderr, flush=True)
     text = subprocess.run([program, "8"], check=True, capture_output=True, text=True).stdout
-    return {what.strip(): {"raw_ns": float(raw), "stossd_ns": float(ours)}
-            for what, raw, ours in re.findall(r"^(a [a-z' ]+?) +(\d+) +(\d+) +[\d.]+ ", text, re.M)}
+    rows = re.findall(r"^(a [a-z' ]+?) +(\d+) +(\d+) +[\d.]+ ", text, re.M)
+    return {what: {"raw_ns": float(raw), "stossd_ns": float(ours)} for what, raw, ours in rows}
 
 
 def run(plan):
