@@ -21,6 +21,24 @@ void ListPool::grow(PooledList& list, std::size_t wanted) {
   list = larger;
 }
 
+double Neighbours::next_margin(Slot slot) const {
+  constexpr double kGrow = 1.6;
+  constexpr double kShrink = 0.8;
+  // A search costs about as much as this many looks at a neighbour. Chosen; within a factor of two
+  // it hardly matters. Of many neighbours most stay whatever the margin is, as those of a disk
+  // among far smaller ones, and each costs a search as much as two looks.
+  constexpr double kSearchWork = 40;
+  constexpr double kFew = 32;
+  constexpr double kFoundWork = 2;
+  const Place& place = grid_.place(slot);
+  const double beyond = std::max(0.0, static_cast<double>(place.list.size) - kFew);
+  const double search = kSearchWork + kFoundWork * beyond;
+  constexpr double kWorkMax = 0xffff;  // that is kept
+  if (place.work < std::min(0.5 * search, kWorkMax)) return place.margin * kGrow;
+  if (place.work > 2.0 * search) return place.margin * kShrink;
+  return place.margin;
+}
+
 // Makes found_ the neighbours of `slot` in place of before_, in all lists. No mark is left.
 void Neighbours::replace_neighbours(Slot slot) {
   Place& own = grid_.place(slot);

@@ -117,18 +117,8 @@ class Neighbours {
     place.work = static_cast<std::uint16_t>(std::min(work, std::uint32_t{0xffff}));
   }
 
-  /// The margin to renew with, so that searching and predicting cost about the same.
-  double next_margin(Slot slot) const {
-    constexpr double kGrow = 1.6;
-    constexpr double kShrink = 0.8;
-    // A search costs about as much as this many looks at a neighbour. Chosen; within a factor of
-    // two it hardly matters.
-    constexpr double kSearchWork = 40;
-    const Place& place = grid_.place(slot);
-    if (place.work < 0.5 * kSearchWork) return place.margin * kGrow;
-    if (place.work > 2.0 * kSearchWork) return place.margin * kShrink;
-    return place.margin;
-  }
+  /// The margin to renew with, m, so that searching and predicting cost about the same.
+  double next_margin(Slot slot) const;
 
   /// Calls visit(slot) for every body whose box overlaps `box`. `visit` may search itself.
   template <class Visit>
