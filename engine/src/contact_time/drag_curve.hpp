@@ -8,6 +8,7 @@
 //   (2) B = x . u,  Q = B' = u . u + x . u',  Q' = 3 u . u' - m x . u'
 //   (3) (e^(m t) B)' = e^(m t) M,  M = u . u + x . a
 //   (4) M' = m (A . A - A . C l - 2 C . C l^2),  A = a / m,  C = v - A
+//   (5)    = 3 v . a - 2 m v . v + g . (3 a - 4 m v) s - 2 m g . g s^2,  g = a - m v
 // By (4) M falls until l is the one positive root of that quadratic, and rises from there on, for l
 // falls from 1 to 0: so M has no more than two roots, and e^(m t) B, whose sign is that of B,
 // rises, falls and rises between them. That is what gap_search.hpp asks for. Source: elementary;
@@ -76,6 +77,7 @@ class DragGap {
   [[nodiscard]] Bend bend(const S& t) const noexcept;
   [[nodiscard]] S lowest_bend() const noexcept;
   [[nodiscard]] S inflection_between(S low, S high, Crossing crossing) const noexcept;
+  [[nodiscard]] S clear_of_turn(const S& first, const S& second) const noexcept;
 
   const AcceleratedMotion<S>& motion_;
   const DoubleWord<S>& reach_;
@@ -155,12 +157,21 @@ typename DragGap<S>::Bend DragGap<S>::bend(const S& t) const noexcept {
   return {to_scalar(speed2 + dot(x, a)), to_scalar(dot(u, a) * S(3) - speed2 * rate_ * S(2))};
 }
 
-/// Where M turns, (4): 0 if it rises from the start.
+/// Where M turns: 0 if it rises from the start.
 template <class S>
 S DragGap<S>::lowest_bend() const noexcept {
   using std::sqrt;
-  const S zero(0);
-  if (!(bend(zero).rate < zero)) return zero;
+  const S zero(0), falls = bend(zero).rate;
+  if (!(falls < zero)) return zero;
+  // By (5) while not half of the speed is lost; slight drag does not show in the l of (4).
+  const DoubleWord2<S>&v = motion_.velocity, &a = motion_.acceleration;
+  const DoubleWord2<S> g = a - v * rate_;
+  const S middle = to_scalar(dot(g, a * S(3) - v * (S(4) * rate_)));
+  const S d = middle * middle + S(8) * rate_ * to_scalar(square_norm(g)) * falls;
+  const S run = S(-2) * falls / (middle + S(sqrt(larger(d, zero))));
+  if (run > zero && run * rate_ < S(0.5)) {
+    return larger(to_scalar(log1p_words(DoubleWord<S>{run, zero} * -rate_) / -rate_), zero);
+  }
   const DoubleWord2<S> end = {motion_.acceleration.x / rate_, motion_.acceleration.y / rate_};
   const DoubleWord2<S> excess = motion_.velocity - end;
   const S a2 = to_scalar(square_norm(end)), c2 = to_scalar(square_norm(excess));
@@ -192,6 +203,20 @@ S DragGap<S>::inflection_between(S low, S high, Crossing crossing) const noexcep
   return t;
 }
 
+/// At terminal velocity B turns 1/m after M, which may be nothing beside t: if one word of t has
+/// put the second root of M beyond that of B, a place before both.
+template <class S>
+S DragGap<S>::clear_of_turn(const S& first, const S& second) const noexcept {
+  constexpr double kCrowded = 0x1p20;  // above it a root to 2^-36 t is not clear of the next
+  if (!(rate_ * second > S(kCrowded)) || fine(second).slope < S(0)) return second;
+  for (const double share : {0x1p-50, 0x1p-40, 0x1p-30, 0x1p-20}) {
+    const S t = second - S(share) * second;
+    if (!(t > first)) break;
+    if (fine(t).slope < S(0)) return t;
+  }
+  return second;
+}
+
 /// The roots of M.
 template <class S>
 Inflections<S> DragGap<S>::inflections() const noexcept {
@@ -208,7 +233,7 @@ Inflections<S> DragGap<S>::inflections() const noexcept {
     step = step + step;
     high = lowest + step;
   }
-  bends.second = inflection_between(lowest, high, Crossing::Rising);
+  bends.second = clear_of_turn(bends.first, inflection_between(lowest, high, Crossing::Rising));
   return bends;
 }
 

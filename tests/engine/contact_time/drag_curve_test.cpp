@@ -34,7 +34,7 @@ template <class S>
 Census census_of(const CurvedFamily& family, bool low_words, const std::string& scalar) {
   Census census(scalar + (low_words ? " two words, " : ", ") + family.name);
   Random random(test::seed_of_run());
-  const std::uint64_t cases = test::environment_number("STOSS_CASES", test::campaign(150, 10'000));
+  const std::uint64_t cases = test::environment_number("STOSS_CASES", test::campaign(150, 100'000));
   for (std::uint64_t i = 0; i < cases; ++i) {
     const double strength = random.one_in(3) ? random.decades(-15, 0) : random.uniform(0.01, 3);
     const DraggedCase<S> c =

@@ -57,8 +57,7 @@ Census census_of_pairs(const PairFamily& family,
                        const std::string& scalar) {
   Census census(scalar + (low_words ? " two words, " : ", ") + family.name + ", " + strength.name);
   Random random(test::seed_of_run());
-  const std::uint64_t cases =
-      test::environment_number("STOSS_CASES", test::campaign(2000, 100'000));
+  const std::uint64_t cases = test::cases_per_family(2000);
   for (std::uint64_t i = 0; i < cases; ++i) {
     const PairCase<S> c = test::make_pair<S>(family.shape(random), random, low_words);
     const std::optional<Real> s = test::exact_pair_contact(

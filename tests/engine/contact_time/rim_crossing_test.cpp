@@ -212,7 +212,7 @@ TEST(RimCrossing, MissesNothingUnderDrag) {
     test::Census from_without("drag, " + family.name);
     test::Census from_within("drag, " + family.name + ", from within");
     Random random(test::seed_of_run());
-    const std::uint64_t cases = test::environment_number("STOSS_CASES", test::campaign(60, 10'000));
+    const std::uint64_t cases = test::environment_number("STOSS_CASES", test::campaign(60, 50'000));
     for (std::uint64_t i = 0; i < cases; ++i) {
       const double strength = random.one_in(3) ? random.decades(-15, 0) : random.uniform(0.01, 3);
       auto c = test::make_dragged<double>(family.shape(random), strength, random, false);
