@@ -35,8 +35,8 @@ namespace {
 
 using namespace stoss::engine;
 using stoss::bench::Advance;
-using stoss::bench::Start;
 using stoss::bench::processor_seconds;
+using stoss::bench::Start;
 
 constexpr double kPull = 0.05;          // m/s^2: a quarter of the gas's energy over its box
 constexpr double kDeceleration = 1e-3;  // m/s^2: the gas moves on through all rounds

@@ -39,9 +39,25 @@ double Neighbours::next_margin(Slot slot) const {
   return place.margin;
 }
 
+namespace {
+
+// Beyond 10^54 m the low words of a place are beyond a float. There the padding of the box, 8e-16
+// (of a wall's 4e-16) of its coordinates, stands for them: twice what was dropped joins the margin,
+// so that a body does not seem to have left its box when it has just been made.
+void drop_low_words_beyond_float(Place& place) {
+  if (std::isfinite(place.x_low) && std::isfinite(place.y_low)) return;
+  const double part = place.role == Role::Wall ? 2.5e-16 : 5e-16;
+  place.x_low = 0;
+  place.y_low = 0;
+  place.margin += part * std::max(std::abs(place.x), std::abs(place.y));
+}
+
+}  // namespace
+
 // Makes found_ the neighbours of `slot` in place of before_, in all lists. No mark is left.
 void Neighbours::replace_neighbours(Slot slot) {
   Place& own = grid_.place(slot);
+  drop_low_words_beyond_float(own);
   for (const Slot old : before_) grid_.place(old).is_marked = true;
   for (const Slot other : found_) {
     Place& place = grid_.place(other);
