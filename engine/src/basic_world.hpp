@@ -141,11 +141,15 @@ class BasicWorld final : public WorldCore {
     std::uint64_t count = 0;  ///< had so far
   };
 
+  /// s; sooner, a guess would not be below the resolution of time.
+  static constexpr double kNear = 1e-9;
+
   struct Nothing {};
   /// What a body has before it: bounds of the contacts that it holds with disks, in seconds from
   /// now, and its first event with a wall.
   struct Foresight : SoonestTwo {
     std::optional<Event<S>> exact;
+    const Event<S>* standing = nullptr;  ///< the guess that stood before, if any
   };
 
   /// Names the offending element of a command in a refusal.
@@ -193,9 +197,11 @@ class BasicWorld final : public WorldCore {
   void predict(Slot slot, bool changed);
   void predict_closely(Slot slot, bool changed);
   void foresee(Slot slot, bool changed);
+  bool foresee_newcomers(Slot slot, const Event<S>& crossing);
   void prefetch_sights(Slot slot) const;
   void look_at_unlike(
       Slot slot, Slot other, bool changed, double now, double renewal, Foresight& ahead);
+  Event<S> guess_of(const Foresight& ahead) const;
   void schedule(Slot slot, const Foresight& ahead, double renewal, double near);
   double time_to_renewal(Slot slot, const Sight& own, double now) const;
   void offer(Slot holder, Slot changed, double soonest);

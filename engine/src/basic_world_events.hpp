@@ -119,7 +119,7 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
     ++counters_.renewals;
     if (has_no_place(slot)) return false;
     renew_box(slot, next_margin(slot));
-    predict(slot, /*changed=*/true);
+    if (!foresee_newcomers(slot, event)) predict(slot, /*changed=*/true);
     return true;
   }
   if constexpr (!Laws::kPlain) {
@@ -250,7 +250,7 @@ template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_about_to_meet(Slot slot) const {
   const Event<S>& next = queue_.event_of(slot);
   const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
-  if (next.partner < 0 || hop(slot, now_, next.at) > tiny) return false;
+  if (next.partner < 0 || next.kind == EventKind::NeighbourRenewal || hop(slot, now_, next.at) > tiny) return false;
   if constexpr (!Laws::kPlain) {
     if (is_zone(next.partner)) {
       const Event<S> meeting = next_but_for_zones(slot);

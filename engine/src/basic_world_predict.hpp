@@ -80,7 +80,7 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
       if (at(other).id != kNoId && interacts(slot, other)) visit(other);
     }
   } else if (at(slot).is_dynamic()) {
-    for (const Slot other : neighbours_.of(slot)) visit(other);
+    neighbours_.for_each(slot, visit);
   } else {
     if constexpr (!Laws::kPlain) {
       if (is_periodic()) {
@@ -384,7 +384,6 @@ void BasicWorld<S, Laws>::predict_closely(Slot slot, bool changed) {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
   if constexpr (kHasSights<Laws>) {
-    constexpr double kNear = 1e-9;  // s; sooner, a guess would not be below the resolution of time
     const double now = time_of_sights();
     const Sight& own = sights_.of_slot[index(slot)];
     const double renewal = time_to_renewal(slot, own, now);
@@ -392,7 +391,7 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
     if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
     if (at(slot).is_dynamic()) {
       const double smallest_held = own.radius * (1.0 / kHolderRatioMax);
-      const auto list = neighbours_.of(slot);
+      const auto list = neighbours_.gathered(slot);
       static_cast<SoonestTwo&>(ahead) =
           soonest_contacts(slot, list, sights_.of_slot, smallest_held, now, kScreenSlack<S>);
       if (ahead.has_others) {
@@ -417,7 +416,8 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_sights([[maybe_unused]] Slot slot) const {
   if constexpr (kHasSights<Laws>) {
-    for (const Slot other : neighbours_.of(slot)) prefetch(&sights_.of_slot[index(other)]);
+    neighbours_.for_each(slot,
+                         [this](Slot other) { prefetch(&sights_.of_slot[index(other)]); });
   }
 }
 
@@ -447,6 +447,22 @@ void BasicWorld<S, Laws>::look_at_unlike(
   }
 }
 
+/// An event with the partner of what lies ahead, and nothing else. A guess that stood before may be
+/// out of date, and stays so.
+template <class S, class Laws>
+Event<S> BasicWorld<S, Laws>::guess_of(const Foresight& ahead) const {
+  Event<S> event;
+  event.partner = ahead.partner;
+  if (ahead.standing != nullptr && ahead.standing->partner == ahead.partner) {
+    event.partner_changes = ahead.standing->partner_changes;
+    event.partner_id = ahead.standing->partner_id;
+  } else {
+    event.partner_changes = at(ahead.partner).changes;
+    event.partner_id = at(ahead.partner).id;
+  }
+  return event;
+}
+
 // Makes the first of what lies ahead the body's event.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double renewal, double near) {
@@ -459,18 +475,42 @@ void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double ren
     limit = std::min(limit, due);
   }
   if (ahead.first < limit) {
-    const Slot partner = ahead.partner;
-    next = {roughly_later(now_, ahead.first),
-            partner,
-            at(partner).changes,
-            EventKind::Guess,
-            at(partner).id,
-            safe_difference(std::min(ahead.second, limit), ahead.first)};
+    next = guess_of(ahead);
+    next.at = roughly_later(now_, ahead.first);
+    next.kind = EventKind::Guess;
+    next.clear_for = safe_difference(std::min(ahead.second, limit), ahead.first);
   } else if (limit == renewal) {
     next = Event<S>{};
+    if (!ahead.exact) {
+      if (ahead.partner >= 0) next = guess_of(ahead);
+      next.until_guess = safe_difference(ahead.first, renewal);
+      next.clear_for = safe_difference(ahead.second, ahead.first);
+    }
     next.at = roughly_later(now_, renewal);
   }
   queue_.set(slot, next, id_lookup());
+}
+
+// A disk has crossed to another cell: what it had before it stands, and newcomers join. False if
+// that is not all, and it must be predicted from the beginning.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::foresee_newcomers([[maybe_unused]] Slot slot,
+                                            [[maybe_unused]] const Event<S>& crossing) {
+  if constexpr (kHasSights<Laws>) {
+    if (!(crossing.until_guess >= 0) || !neighbours_.has_only_crossed()) return false;
+    const double now = time_of_sights();
+    const Sight& own = sights_.of_slot[index(slot)];
+    Foresight ahead;
+    static_cast<SoonestTwo&>(ahead) = soonest_contacts(
+        slot, neighbours_.newcomers(slot), sights_.of_slot, 0, now, kScreenSlack<S>);
+    ahead.standing = &crossing;
+    const auto first = static_cast<double>(crossing.until_guess);
+    ahead.note(crossing.partner, first);
+    ahead.note(crossing.partner, first + static_cast<double>(crossing.clear_for));
+    schedule(slot, ahead, time_to_renewal(slot, own, now), kNear);
+    return true;
+  }
+  return false;
 }
 
 /// Seconds until the body leaves its box, a little less; infinity if it never does.
@@ -616,7 +656,9 @@ void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
                     role,
                     tight_box(slot),
                     glance_of(slot),
-                    std::max(margin, smallest_margin(slot)),
+                    {std::max(margin, smallest_margin(slot)),
+                     smallest_margin(slot),
+                     /*may_stand_in_cells=*/!Laws::kGrows},
                     [this, slot](Slot other) { return may_become_close(slot, other); });
 }
 

@@ -51,7 +51,8 @@ struct Event {
   std::uint32_t partner_changes = 0;  ///< the partner's count when this was predicted
   EventKind kind = EventKind::NeighbourRenewal;
   Id partner_id = kNoId;  ///< kept here: a slot may be given to another body while the event waits
-  float clear_for = 0;    ///< s; of a guess: the body has no other event so soon after `at`
+  float clear_for = 0;    ///< s; of a guess: the body has no other event so soon after it
+  float until_guess = -1;  ///< s; of a renewal: the guess of `partner` that then stands; < 0: none
 };
 
 /// The ids of an event's bodies, lower first.
