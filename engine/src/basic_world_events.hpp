@@ -303,6 +303,7 @@ void BasicWorld<S, Laws>::rebase(Slot slot, const Time<S>& instant) {
   body.motion.position = position;
   body.motion.since = instant;
   ++body.changes;
+  if (!all_pairs()) neighbours_.note_event(slot);
   begin_motion(slot, instant);
   note_digest_stale(slot);
   note_change(slot, ChangeKind::Moved);

@@ -391,7 +391,7 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
     if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
     if (at(slot).is_dynamic()) {
       const double smallest_held = own.radius * (1.0 / kHolderRatioMax);
-      const auto list = neighbours_.gathered(slot);
+      const auto list = neighbours_.of(slot);
       static_cast<SoonestTwo&>(ahead) =
           soonest_contacts(slot, list, sights_.of_slot, smallest_held, now, kScreenSlack<S>);
       if (ahead.has_others) {
@@ -416,8 +416,7 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_sights([[maybe_unused]] Slot slot) const {
   if constexpr (kHasSights<Laws>) {
-    neighbours_.for_each(slot,
-                         [this](Slot other) { prefetch(&sights_.of_slot[index(other)]); });
+    for (const Slot other : neighbours_.of(slot)) prefetch(&sights_.of_slot[index(other)]);
   }
 }
 

@@ -24,13 +24,13 @@ void BoxGrid::find_on(const Level& level, const Extent& box) const {
     if (overlaps(places_[index(item)], box)) found_.push_back(item);
   };
   // Where it would look at more cells than there are, it looks at all. So it does for NaN.
-  if (!((right - left) * (high - low) <= 64 + CellChains::kBlockCells * static_cast<double>(chains_.table_size()))) {
-    return chains_.for_each(level.level, look_at);
+  if (!((right - left) * (high - low) <= 64 + store_.cells_max())) {
+    return store_.for_each(level.level, look_at);
   }
-  chains_.for_each({CellChains::floor_of(left),
-                    CellChains::floor_of(low),
-                    CellChains::floor_of(right),
-                    CellChains::floor_of(high)},
+  store_.for_each({CellStore::floor_of(left),
+                    CellStore::floor_of(low),
+                    CellStore::floor_of(right),
+                    CellStore::floor_of(high)},
                    level.level,
                    look_at);
 }
@@ -65,15 +65,15 @@ void BoxGrid::insert(std::int32_t item, const Aabb& tight, double margin) {
   entering.half = Extent::padded(half, std::max(std::abs(extent.x), std::abs(extent.y)));
   Level& level = level_for(entering.half);
   ++level.items;
-  chains_.insert(item,
-                 {CellChains::floor_of(entering.x * level.inverse),
-                  CellChains::floor_of(entering.y * level.inverse),
+  store_.insert(item,
+                 {CellStore::floor_of(entering.x * level.inverse),
+                  CellStore::floor_of(entering.y * level.inverse),
                   level.level});
 }
 
 void BoxGrid::remove(std::int32_t item) {
-  Level& level = level_of(chains_.cell_of(item).level);
-  chains_.remove(item);
+  Level& level = level_of(store_.cell_of(item).level);
+  store_.remove(item);
   if (--level.items > 0) return;
   level = levels_.back();
   levels_.pop_back();

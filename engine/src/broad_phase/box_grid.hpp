@@ -14,7 +14,7 @@
 // Invariant: an item's half side is below the cell of its level, and is padded by more than the
 // rounding of its coordinates, so cell numbers fit into 54 bits.
 
-#include "broad_phase/cell_chains.hpp"
+#include "broad_phase/cell_store.hpp"
 #include "broad_phase/place.hpp"
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class BoxGrid {
   void insert(std::int32_t item, const Aabb& tight, double margin);
   /// REQUIRES: in the grid.
   void remove(std::int32_t item);
-  bool contains(std::int32_t item) const { return chains_.contains(item); }
+  bool contains(std::int32_t item) const { return store_.contains(item); }
 
   /// The items whose boxes overlap `box`, or all but do; valid until the next call.
   std::span<const std::int32_t> find(const Aabb& box) const;
@@ -56,7 +56,7 @@ class BoxGrid {
   void find_on(const Level& level, const Extent& box) const;
 
   std::vector<Place> places_;
-  CellChains chains_;
+  CellStore store_;
   std::vector<Level> levels_;                // those that have items
   mutable std::vector<std::int32_t> found_;  // by the last search
 };

@@ -22,7 +22,7 @@ std::optional<DiskCells::Cage> DiskCells::enter(
     if (level->items == 0) std::erase_if(levels_, [](const Level& l) { return l.items == 0; });
     return std::nullopt;
   }
-  chains_.insert(disk, cage->cell);
+  store_.insert(disk, cage->cell);
   ++level->items;
   ++level->entered;
   look_after(*level);
@@ -30,12 +30,12 @@ std::optional<DiskCells::Cage> DiskCells::enter(
 }
 
 std::optional<DiskCells::Cage> DiskCells::move(std::int32_t disk, double x, double y) {
-  Level& level = level_of(chains_.cell_of(disk).level);
+  Level& level = level_of(store_.cell_of(disk).level);
   if (level.is_retired) return std::nullopt;
   const auto cage = cage_at(level, x, y);
   if (!cage) return std::nullopt;
-  chains_.remove(disk);
-  chains_.insert(disk, cage->cell);
+  store_.remove(disk);
+  store_.insert(disk, cage->cell);
   ++level.entered;
   look_after(level);
   return cage;
@@ -45,7 +45,7 @@ std::optional<DiskCells::Cage> DiskCells::cage_at(const Level& level, double x, 
   const double number_x = x * level.inverse;
   const double number_y = y * level.inverse;
   if (!(std::abs(number_x) < kNumberMax && std::abs(number_y) < kNumberMax)) return std::nullopt;
-  const Cell cell{CellChains::floor_of(number_x), CellChains::floor_of(number_y), level.id};
+  const Cell cell{CellStore::floor_of(number_x), CellStore::floor_of(number_y), level.id};
   return Cage{(static_cast<double>(cell.x) + 0.5) * level.side,
               (static_cast<double>(cell.y) + 0.5) * level.side,
               (0.5 + kBeyond) * level.side,
@@ -53,8 +53,8 @@ std::optional<DiskCells::Cage> DiskCells::cage_at(const Level& level, double x, 
 }
 
 void DiskCells::leave(std::int32_t disk) {
-  const std::int32_t id = chains_.cell_of(disk).level;
-  chains_.remove(disk);
+  const std::int32_t id = store_.cell_of(disk).level;
+  store_.remove(disk);
   if (--level_of(id).items > 0) return;
   std::erase_if(levels_, [id](const Level& level) { return level.id == id; });
 }
@@ -105,7 +105,7 @@ void DiskCells::look_after(Level& level) {
   for (const Level& other : levels_) {  // most have not come over yet: too soon to tell
     if (other.is_retired && other.items > level.items / 8) return;
   }
-  const auto cells = static_cast<double>(CellChains::kBlockCells * chains_.block_count(level.id));
+  const auto cells = static_cast<double>(CellStore::kBlockCells * store_.block_count(level.id));
   const double wanted = level.side * std::sqrt(kTarget * cells / level.items);
   const double side = std::max(std::clamp(wanted, level.side / 2, 2 * level.side),
                                least_side(level.radius_max));

@@ -20,7 +20,7 @@
 // Deviation: only what is new to a disk is looked at when it crosses.
 
 #include "broad_phase/aabb.hpp"
-#include "broad_phase/cell_chains.hpp"
+#include "broad_phase/cell_store.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -30,7 +30,7 @@ namespace stoss::engine {
 
 class DiskCells {
  public:
-  using Cell = CellChains::Cell;
+  using Cell = CellStore::Cell;
   /// A square that its disk's centre stays in, with the disk's cell.
   struct Cage {
     double x = 0;     ///< m, of its middle
@@ -39,9 +39,9 @@ class DiskCells {
     Cell cell;
   };
 
-  bool contains(std::int32_t disk) const { return chains_.contains(disk); }
+  bool contains(std::int32_t disk) const { return store_.contains(disk); }
   /// REQUIRES: contained.
-  Cell cell_of(std::int32_t disk) const { return chains_.cell_of(disk); }
+  Cell cell_of(std::int32_t disk) const { return store_.cell_of(disk); }
 
   /// Puts a disk in whose centre is at (x, y), off by less than 1e-10 of `radius`. None where cells
   /// do not suit it: too far out for their numbers, or much larger than most. `slowest`: m, the
@@ -53,35 +53,26 @@ class DiskCells {
   /// REQUIRES: contained.
   void leave(std::int32_t disk);
 
-  /// Calls visit(other) for all disks of the level that this one may meet. `visit` changes nothing
-  /// here. REQUIRES: contained.
-  template <class Visit>
-  void for_each_around(std::int32_t disk, const Visit& visit) const {
-    const Cell own = chains_.cell_of(disk);
-    const CellChains::Range all{own.x - 1, own.y - 1, own.x + 1, own.y + 1};
-    chains_.for_each_near(disk, all, [&](std::int32_t other) {
-      if (other != disk) visit(other);
-    });
+  /// Writes all disks of the level that this one may meet; returns where it has stopped. REQUIRES:
+  /// contained; room at `to` for all disks that there are and one more.
+  std::int32_t* collect_around(std::int32_t disk, std::int32_t* to) const {
+    return store_.collect_around(disk, to);
   }
 
   /// The same for those alone that it could not meet while it stood in `before`, of its level.
-  template <class Visit>
-  void for_each_new_around(std::int32_t disk, const Cell& before, const Visit& visit) const {
-    const Cell own = chains_.cell_of(disk);
-    CellChains::Range all{own.x - 1, own.y - 1, own.x + 1, own.y + 1};
-    const auto look = [&](const CellChains::Range& cells) {
-      chains_.for_each_near(disk, cells, visit);
-    };
+  std::int32_t* collect_new_around(std::int32_t disk, const Cell& before, std::int32_t* to) const {
+    const Cell own = store_.cell_of(disk);
     const std::int64_t dx = own.x - before.x;
     const std::int64_t dy = own.y - before.y;
-    if (dx == 0 && dy == 0) return;
-    if (dx < -1 || dx > 1 || dy < -1 || dy > 1) return for_each_around(disk, visit);
+    if (dx < -1 || dx > 1 || dy < -1 || dy > 1) return collect_around(disk, to);
+    CellStore::Range rest{own.x - 1, own.y - 1, own.x + 1, own.y + 1};
     if (dx != 0) {
       const std::int64_t x = own.x + dx;
-      look({x, all.y0, x, all.y1});
-      (dx > 0 ? all.x1 : all.x0) -= dx;
+      to = store_.collect_near(disk, {x, rest.y0, x, rest.y1}, to);
+      (dx > 0 ? rest.x1 : rest.x0) -= dx;
     }
-    if (dy != 0) look({all.x0, own.y + dy, all.x1, own.y + dy});
+    if (dy == 0) return to;
+    return store_.collect_near(disk, {rest.x0, own.y + dy, rest.x1, own.y + dy}, to);
   }
 
   /// Calls visit(disk) for every disk whose cage, with its radius, overlaps the box, and some more;
@@ -112,12 +103,13 @@ class DiskCells {
     const double low = (box.low_y - beyond) * level.inverse;
     const double right = (box.high_x + beyond) * level.inverse;
     const double high = (box.high_y + beyond) * level.inverse;
-    const double most = 64 + CellChains::kBlockCells * static_cast<double>(chains_.table_size());
-    if (!((right - left) * (high - low) <= most)) return chains_.for_each(level.id, visit);
-    chains_.for_each({CellChains::floor_of(left),
-                      CellChains::floor_of(low),
-                      CellChains::floor_of(right),
-                      CellChains::floor_of(high)},
+    if (!((right - left) * (high - low) <= 64 + store_.cells_max())) {
+      return store_.for_each(level.id, visit);
+    }
+    store_.for_each({CellStore::floor_of(left),
+                      CellStore::floor_of(low),
+                      CellStore::floor_of(right),
+                      CellStore::floor_of(high)},
                      level.id,
                      visit);
   }
@@ -136,7 +128,7 @@ class DiskCells {
   static constexpr double kBeyond = 1.0 / 32;  // s in (1)
   static constexpr double kNumberMax = 0x1p40;
 
-  CellChains chains_;
+  CellStore store_;
   std::vector<Level> levels_;  // few
   std::int32_t next_id_ = 0;
 };

@@ -39,6 +39,23 @@ double Neighbours::next_margin(Slot slot) const {
   return place.margin;
 }
 
+Aabb Neighbours::put_in(Slot slot,
+                        Role role,
+                        const Aabb& tight,
+                        const Glance& here,
+                        const Margin& margin,
+                        bool in_cells) {
+  Tag& tag = tags_[index(slot)];
+  tag.role = role;
+  grid_.place(slot).work = 0;
+  if (role == Role::Wall) return stand_in_tree(slot, tight, here, margin.wanted);
+  if (in_cells) {
+    if (const auto box = stand_in_cell(slot, tight, margin.least)) return *box;
+  }
+  tag.flown = kFar;
+  return stand_in_grid(slot, tight, here, margin.wanted);
+}
+
 Aabb Neighbours::stand_in_tree(Slot slot, const Aabb& tight, const Glance& here, double margin) {
   Place& place = grid_.place(slot);
   place.x = here.x + here.x_low;

@@ -13,8 +13,8 @@
 //
 // Most moving disks stand in cells with others of their size, and know each other from there
 // (disk_cells.hpp); their boxes are what their cages reach. The lists hold all other neighbours:
-// walls, fixed disks, and disks of another size. A disk that finds nobody leaves the cells for a
-// box with a margin.
+// walls, fixed disks, and disks of another size. A disk that flies far undisturbed leaves the cells
+// for a box with a margin.
 //
 // Other disks stand in a grid, walls, which may be a thousand times longer than any, in a tree.
 // Bodies that are no dynamic disks keep no lists: a wall may have thousands of neighbours and is
@@ -36,6 +36,7 @@
 #include "screen.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -73,31 +74,38 @@ class Neighbours {
     double y_low = 0;
   };
 
-  /// Calls visit(other) for all neighbours of a dynamic disk. `visit` renews no box.
+  /// All neighbours of a dynamic disk, followed in memory by three or more slots, whichever. Valid
+  /// until it was called for two others, or a box is renewed.
+  std::span<const Slot> of(Slot slot) const {
+    for (const Gathered& gathered : gathered_) {
+      if (gathered.slot == slot && gathered.renewals == renewals_) return gathered.span();
+    }
+    Gathered& oldest = gathered_[next_gathered_];
+    next_gathered_ = 1 - next_gathered_;
+    const auto list = list_of(slot);
+    Slot* to = std::copy(list.begin(), list.end(), room_in(oldest));
+    if (cells_.contains(slot)) to = cells_.collect_around(slot, to);
+    oldest.renewals = renewals_;
+    return ended(oldest, slot, to);
+  }
+  /// Calls visit(other) for each of them; `visit` may ask for neighbours itself, but renews none.
   template <class Visit>
   void for_each(Slot slot, const Visit& visit) const {
-    for (const Slot other : list_of(slot)) visit(other);
-    if (cells_.contains(slot)) cells_.for_each_around(slot, visit);
-  }
-  /// The same as one piece of memory, followed by three or more slots, whichever. Valid until the
-  /// next call of this or of newcomers().
-  std::span<const Slot> gathered(Slot slot) const {
-    const auto list = list_of(slot);
-    Slot* to = std::copy(list.begin(), list.end(), room_around());
-    if (cells_.contains(slot)) {
-      cells_.for_each_around(slot, [&to](Slot other) { *to++ = other; });
-    }
-    return ended_around(slot, to);
+    std::vector<Slot> found = std::exchange(spare_, {});
+    const auto all = of(slot);
+    found.assign(all.begin(), all.end());
+    for (const Slot other : found) visit(other);
+    spare_ = std::move(found);
   }
   /// After renew() of a disk: has it only gone from one cell to the next, in its plain surroundings?
   bool has_only_crossed() const { return has_only_crossed_; }
-  /// As gathered(): whom it has as neighbours now and had not before. REQUIRES: has_only_crossed().
+  /// As of(): whom it has as neighbours now and had not before. Valid until the next call.
+  /// REQUIRES: has_only_crossed().
   std::span<const Slot> newcomers(Slot slot) const {
-    Slot* to = room_around();
-    cells_.for_each_new_around(slot, crossed_from_, [&to](Slot other) { *to++ = other; });
-    return ended_around(slot, to);
+    Slot* const to = room_in(newcomers_);
+    return ended(newcomers_, slot, cells_.collect_new_around(slot, crossed_from_, to));
   }
-  /// Asks for what gathered() and anchor() will read.
+  /// Asks for what of() and anchor() will read.
   void prefetch_place(Slot slot) const { prefetch(&grid_.place(slot)); }
   /// Asks for the list itself; its place should have come.
   void prefetch_list(Slot slot) const { prefetch(list_of(slot).data()); }
@@ -126,21 +134,27 @@ class Neighbours {
     if (index(slot) >= tags_.size()) tags_.resize(index(slot) + 1);
     const std::optional<DiskCells::Cell> from = cell_of(slot);
     const bool was_known = remember_neighbours(slot, copies);
-    tags_[index(slot)].role = role;
     if (!from || !cross(slot, tight, interacts, copies)) {
+      const bool in_cells = role == Role::DynamicDisk && margin.may_stand_in_cells &&
+                            (!was_known || suits_cells(slot, from.has_value(), margin.wanted));
       if (was_known) take_out(slot);
-      put_in(slot, role, tight, here, margin, was_known, interacts, copies);
+      const Aabb box = put_in(slot, role, tight, here, margin, in_cells);
+      find(slot, box, interacts, copies);
     }
     note_crossing(slot, from);
     replace_neighbours(slot);
+    ++renewals_;
   }
 
   template <class Copies = NoCopies>
   void remove(Slot slot, const Copies& copies = {}) {
     if (remember_neighbours(slot, copies)) take_out(slot);
     forget(slot);
+    ++renewals_;
   }
 
+  /// Notes that a body's motion has changed.
+  void note_event(Slot slot) { tags_[index(slot)].flown = 0; }
   /// Notes predictions made for a body since its last renewal.
   void note_work(Slot slot) {
     if (cells_.contains(slot)) return;
@@ -169,7 +183,11 @@ class Neighbours {
   struct Tag {
     Role role = Role::Wall;
     bool is_marked = false;
+    std::uint8_t flown = 0;  ///< cells that it has crossed to since it last had an event, or kFar
   };
+
+  /// Cells; chosen: a disk that flies farther without an event is in nobody's way.
+  static constexpr std::uint8_t kFar = 24;
 
   static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
   bool keeps_list(Slot slot) const { return tags_[index(slot)].role == Role::DynamicDisk; }
@@ -183,67 +201,44 @@ class Neighbours {
     if (!cells_.contains(slot)) return std::nullopt;
     return cells_.cell_of(slot);
   }
-  // Memory for every body and a little more; what is written there, ended with some slots.
-  Slot* room_around() const {
-    if (around_.size() < tags_.size() + 4) around_.resize(2 * tags_.size() + 4);
-    return around_.data();
+  /// Neighbours in one piece of memory.
+  struct Gathered {
+    Slot slot = -1;  ///< whose; -1: nobody's
+    std::uint64_t renewals = 0;
+    std::size_t size = 0;
+    std::vector<Slot> slots;
+    std::span<const Slot> span() const { return {slots.data(), size}; }
+  };
+  // Memory for every body and a little more.
+  Slot* room_in(Gathered& gathered) const {
+    if (gathered.slots.size() < tags_.size() + 4) gathered.slots.resize(2 * tags_.size() + 4);
+    return gathered.slots.data();
   }
-  std::span<const Slot> ended_around(Slot slot, Slot* to) const {
+  // What was written there, ended with some slots.
+  static std::span<const Slot> ended(Gathered& gathered, Slot slot, Slot* to) {
     std::fill_n(to, 3, slot);
-    return {around_.data(), to};
+    gathered.slot = slot;
+    gathered.size = static_cast<std::size_t>(to - gathered.slots.data());
+    return gathered.span();
   }
   /// A disk that comes to another cell of its level. False, and nothing is done, where it should
   /// stand elsewhere.
   template <class Interacts, class Copies>
   bool cross(Slot slot, const Aabb& tight, const Interacts& interacts, const Copies& copies) {
-    if (has_long_been_alone(slot)) return false;
+    if (tags_[index(slot)].flown >= kFar) return false;
+    ++tags_[index(slot)].flown;
     const Extent extent(tight);
     const auto cage = cells_.move(slot, extent.x, extent.y);
     if (!cage) return false;
     find(slot, box_in(*cage, slot, extent), interacts, copies);
     return true;
   }
-  /// Has a disk found nobody around some of the cells that it came to, one after the other? `work`
-  /// counts them; it looks now and then.
-  bool has_long_been_alone(Slot slot) {
-    constexpr std::uint16_t kNowAndThen = 8;
-    constexpr std::uint16_t kLong = 2 * kNowAndThen;
-    Place& place = grid_.place(slot);
-    ++place.work;
-    if (place.work % kNowAndThen != 0) return false;
-    bool is_alone = before_.empty();
-    if (is_alone) cells_.for_each_around(slot, [&is_alone](Slot) { is_alone = false; });
-    if (!is_alone) place.work = 0;
-    return place.work >= kLong;
-  }
-  // A disk goes to the cells, but for one that is alone, so that it is brought on the less often
-  // the farther it flies.
-  template <class Interacts, class Copies>
-  void put_in(Slot slot,
-              Role role,
-              const Aabb& tight,
-              const Glance& here,
-              const Margin& margin,
-              bool was_known,
-              const Interacts& interacts,
-              const Copies& copies) {
-    const bool is_alone = was_known && before_.empty();
-    grid_.place(slot).work = 0;
-    if (role == Role::Wall) {
-      return find(slot, stand_in_tree(slot, tight, here, margin.wanted), interacts, copies);
-    }
-    const bool may_stand_in_cells = role == Role::DynamicDisk && margin.may_stand_in_cells;
-    if (may_stand_in_cells && !is_alone) {
-      if (const auto box = stand_in_cell(slot, tight, margin.least)) {
-        return find(slot, *box, interacts, copies);
-      }
-    }
-    find(slot, stand_in_grid(slot, tight, here, margin.wanted), interacts, copies);
-    if (!may_stand_in_cells || found_.empty()) return;
-    if (const auto box = stand_in_cell(slot, tight, margin.least)) {
-      grid_.remove(slot);
-      find(slot, *box, interacts, copies);
-    }
+  // Whoever flies far without an event gets a box that grows, so that it is brought on the less
+  // often the farther it flies; until it has had one again, or too many to look at.
+  bool suits_cells(Slot slot, bool stands_in_one, double wanted) {
+    const Tag& tag = tags_[index(slot)];
+    if (stands_in_one) return tag.flown < kFar;
+    return tag.flown == 0 || wanted < grid_.place(slot).margin;
   }
   void note_crossing(Slot slot, const std::optional<DiskCells::Cell>& from) {
     const std::optional<DiskCells::Cell> to = cell_of(slot);
@@ -253,6 +248,12 @@ class Neighbours {
   }
 
   // Each gives the box that others are looked for in.
+  Aabb put_in(Slot slot,
+              Role role,
+              const Aabb& tight,
+              const Glance& here,
+              const Margin& margin,
+              bool in_cells);
   Aabb stand_in_tree(Slot slot, const Aabb& tight, const Glance& here, double margin);
   Aabb stand_in_grid(Slot slot, const Aabb& tight, const Glance& here, double margin);
   std::optional<Aabb> stand_in_cell(Slot slot, const Aabb& tight, double least);
@@ -321,7 +322,10 @@ class Neighbours {
   bool has_only_crossed_ = false;  // the body that was renewed last
   DiskCells::Cell crossed_from_;
   mutable std::vector<Slot> spare_;   // its memory is used again
-  mutable std::vector<Slot> around_;  // of the last gathered()
+  std::uint64_t renewals_ = 0;
+  mutable std::array<Gathered, 2> gathered_;  // by the last calls of of()
+  mutable std::size_t next_gathered_ = 0;
+  mutable Gathered newcomers_;
 };
 
 }  // namespace stoss::engine
