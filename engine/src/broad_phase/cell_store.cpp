@@ -75,6 +75,15 @@ std::int32_t* CellStore::collect_hanging_across(std::int32_t item, std::int32_t*
   return to;
 }
 
+std::uint64_t CellStore::take_looks(std::int32_t level) {
+  std::uint64_t looks = 0;
+  for (const Entry& entry : table_) {
+    if (entry.block == kNone || entry.key.level != level) continue;
+    looks += std::exchange(heads_[index(entry.block)].looks, 0U);
+  }
+  return looks;
+}
+
 std::int32_t CellStore::make_block(const Cell& key) {
   std::int32_t block;
   if (free_blocks_.empty()) {
@@ -86,7 +95,7 @@ std::int32_t CellStore::make_block(const Cell& key) {
     free_blocks_.pop_back();
   }
   blocks_[index(block)].items.fill(kNone);
-  heads_[index(block)] = {key, 0, 0, {}};
+  heads_[index(block)] = {key, 0, 0, 0, {}};
   if (2 * ++entries_ > table_.size()) grow_table();
   table_[entry_of(key)] = {key, block};
   link(block, block);

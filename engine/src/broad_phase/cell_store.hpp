@@ -82,11 +82,14 @@ class CellStore {
     }
     const std::uint32_t corner = at - kBlockSide - 1;
     const std::int32_t* const first = &blocks_[cell / kBlockCells].items[2 * corner];
+    const std::int32_t* const start = to;
     to = take_some(first, kThree, item, to);
     to = take_some(first + 2 * kBlockSide, kThree, item, to);
     to = take_some(first + 4 * kBlockSide, kThree, item, to);
     constexpr std::uint64_t kNineCells = 0x070707;
-    const std::uint64_t crowded = heads_[cell / kBlockCells].crowded & (kNineCells << corner);
+    const Head& head = heads_[cell / kBlockCells];
+    head.looks += static_cast<std::uint32_t>(to - start);
+    const std::uint64_t crowded = head.crowded & (kNineCells << corner);
     return crowded == 0 ? to : collect_hanging(cell / kBlockCells, crowded, item, to);
   }
 
@@ -111,13 +114,9 @@ class CellStore {
     }
   }
 
-  /// How many blocks a level has.
-  std::size_t block_count(std::int32_t level) const {
-    return static_cast<std::size_t>(
-        std::count_if(table_.begin(), table_.end(), [level](const Entry& entry) {
-          return entry.block != kNone && entry.key.level == level;
-        }));
-  }
+  /// How many items collect_around() has written for those of a level, as far as is known, since
+  /// the last call for it.
+  std::uint64_t take_looks(std::int32_t level);
   /// More than the cells that a search of all blocks looks at.
   double cells_max() const { return static_cast<double>(kBlockCells * table_.size()); }
 
@@ -136,6 +135,7 @@ class CellStore {
     Cell key;                   ///< likewise
     std::uint64_t crowded = 0;  ///< a bit for each cell with items behind its second
     std::int32_t items = 0;
+    mutable std::uint32_t looks = 0;
     std::array<std::int32_t, 9> beside;  ///< the blocks around it, itself in the middle
   };
   static std::size_t beside(std::int64_t dx, std::int64_t dy) {
@@ -205,6 +205,7 @@ class CellStore {
   std::int32_t* collect_across(
       std::int32_t item, std::size_t own, std::uint32_t x, std::uint32_t y, std::int32_t* to) const {
     const Head& head = heads_[own];
+    const std::int32_t* const start = to;
     const auto from = static_cast<std::int64_t>(x) - 1;
     std::uint64_t crowded = 0;
     for (std::int64_t row = static_cast<std::int64_t>(y) - 1; row <= y + std::int64_t{1}; ++row) {
@@ -228,6 +229,7 @@ class CellStore {
         take(0, from, 6);
       }
     }
+    head.looks += static_cast<std::uint32_t>(to - start);
     return crowded == 0 ? to : collect_hanging_across(item, to);
   }
   std::int32_t* collect_hanging_across(std::int32_t item, std::int32_t* to) const;

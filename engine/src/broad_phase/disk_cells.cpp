@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stoss::engine {
 namespace {
 
-/// Disks for a cell, where (1) leaves the choice. Measured: from 0.4 to 0.9 the cost of a collision
-/// hardly changes.
-constexpr double kTarget = 0.6;
+/// What it costs to bring a disk to another cell, in looks at a neighbour. Measured; within a factor
+/// of two it hardly matters.
+constexpr double kCrossing = 14;
 
 }  // namespace
 
@@ -24,8 +25,6 @@ std::optional<DiskCells::Cage> DiskCells::enter(
   }
   store_.insert(disk, cage->cell);
   ++level->items;
-  ++level->entered;
-  look_after(*level);
   return cage;
 }
 
@@ -36,7 +35,7 @@ std::optional<DiskCells::Cage> DiskCells::move(std::int32_t disk, double x, doub
   if (!cage) return std::nullopt;
   store_.remove(disk);
   store_.insert(disk, cage->cell);
-  ++level.entered;
+  ++level.crossings;
   look_after(level);
   return cage;
 }
@@ -95,20 +94,22 @@ DiskCells::Level* DiskCells::level_for(double radius) {
   return &make_level(kRoom * radius, least_side(kRoom * radius));
 }
 
-// Are the cells of a level too full or too empty?
+// Are the cells of a level too small or too large? With sides f times as long there are 1 / f times
+// as many crossings and f^2 times as many looks: together they cost least where the crossings' part
+// is twice the other.
 void DiskCells::look_after(Level& level) {
-  constexpr std::uint64_t kOften = 4;  // entrances a disk
-  if (level.is_retired || level.entered < 256 + kOften * static_cast<std::uint64_t>(level.items)) {
+  constexpr std::uint64_t kOften = 2;  // crossings a disk
+  if (level.is_retired || level.crossings < 256 + kOften * static_cast<std::uint64_t>(level.items)) {
     return;
   }
-  level.entered = 0;
+  const auto crossings = static_cast<double>(std::exchange(level.crossings, 0));
+  const auto looks = static_cast<double>(store_.take_looks(level.id));
   for (const Level& other : levels_) {  // most have not come over yet: too soon to tell
     if (other.is_retired && other.items > level.items / 8) return;
   }
-  const auto cells = static_cast<double>(CellStore::kBlockCells * store_.block_count(level.id));
-  const double wanted = level.side * std::sqrt(kTarget * cells / level.items);
-  const double side = std::max(std::clamp(wanted, level.side / 2, 2 * level.side),
-                               least_side(level.radius_max));
+  const double longer = std::cbrt(kCrossing * crossings / (2 * (looks + 1)));
+  const double side =
+      std::max(level.side * std::clamp(longer, 0.5, 4.0), least_side(level.radius_max));
   constexpr double kEnough = 1.25;
   if (side < kEnough * level.side && level.side < kEnough * side) return;
   level.is_retired = true;

@@ -11,9 +11,10 @@
 //   W (1 - 2 s) >= 2 r      W: side of a cell [m]; s: the part of it that a cage is wider, on each
 //                           side; r: the largest radius of the level [m]                      (1)
 //
-// Levels are made for the sizes that come. In a dilute gas cells are larger than (1) asks, for
-// about kTarget disks each: when a level's are found too large or too small, a level with better
-// ones takes its place, and each disk moves there when it next crosses a side.
+// Levels are made for the sizes that come. Where disks fly far, cells are larger than (1) asks:
+// their sides follow the work, crossings against looks at neighbours. When a level's are found too
+// large or too small, a level with better ones takes its place, and each disk moves there when it
+// next crosses a side.
 //
 // Source: cells without lists, one crossing event a body, Smallenburg, Eur. Phys. J. E 45 (2022)
 // 22; cages wider than their cells as in Bannerman, Sargant, Lue, J. Comput. Chem. 32 (2011) 3329.
@@ -93,7 +94,7 @@ class DiskCells {
     double inverse = 1;     ///< 1 / side
     double radius_max = 0;  ///< m
     bool is_retired = false;
-    std::uint64_t entered = 0;  ///< disks, since its cells were last looked at
+    std::uint64_t crossings = 0;  ///< from cell to cell, since they were last looked at
   };
 
   template <class Visit>
