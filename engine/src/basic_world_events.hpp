@@ -250,7 +250,9 @@ template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_about_to_meet(Slot slot) const {
   const Event<S>& next = queue_.event_of(slot);
   const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
-  if (next.partner < 0 || next.kind == EventKind::NeighbourRenewal || hop(slot, now_, next.at) > tiny) return false;
+  if (next.partner < 0 || next.kind == EventKind::NeighbourRenewal ||
+      hop(slot, now_, next.at) > tiny)
+    return false;
   if constexpr (!Laws::kPlain) {
     if (is_zone(next.partner)) {
       const Event<S> meeting = next_but_for_zones(slot);

@@ -50,8 +50,8 @@ struct Event {
   std::int32_t partner = -1;          ///< slot of the other body; -1: an event of one body alone
   std::uint32_t partner_changes = 0;  ///< the partner's count when this was predicted
   EventKind kind = EventKind::NeighbourRenewal;
-  Id partner_id = kNoId;  ///< kept here: a slot may be given to another body while the event waits
-  float clear_for = 0;    ///< s; of a guess: the body has no other event so soon after it
+  Id partner_id = kNoId;   ///< kept here: a slot may be given to another body while the event waits
+  float clear_for = 0;     ///< s; of a guess: the body has no other event so soon after it
   float until_guess = -1;  ///< s; of a renewal: the guess of `partner` that then stands; < 0: none
 };
 

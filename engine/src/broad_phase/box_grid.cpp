@@ -28,11 +28,11 @@ void BoxGrid::find_on(const Level& level, const Extent& box) const {
     return store_.for_each(level.level, look_at);
   }
   store_.for_each({CellStore::floor_of(left),
-                    CellStore::floor_of(low),
-                    CellStore::floor_of(right),
-                    CellStore::floor_of(high)},
-                   level.level,
-                   look_at);
+                   CellStore::floor_of(low),
+                   CellStore::floor_of(right),
+                   CellStore::floor_of(high)},
+                  level.level,
+                  look_at);
 }
 
 BoxGrid::Level& BoxGrid::level_of(std::int32_t level) {
@@ -66,9 +66,9 @@ void BoxGrid::insert(std::int32_t item, const Aabb& tight, double margin) {
   Level& level = level_for(entering.half);
   ++level.items;
   store_.insert(item,
-                 {CellStore::floor_of(entering.x * level.inverse),
-                  CellStore::floor_of(entering.y * level.inverse),
-                  level.level});
+                {CellStore::floor_of(entering.x * level.inverse),
+                 CellStore::floor_of(entering.y * level.inverse),
+                 level.level});
 }
 
 void BoxGrid::remove(std::int32_t item) {

@@ -202,8 +202,11 @@ class CellStore {
     return to;
   }
   // The nine cells around one at its block's edge.
-  std::int32_t* collect_across(
-      std::int32_t item, std::size_t own, std::uint32_t x, std::uint32_t y, std::int32_t* to) const {
+  std::int32_t* collect_across(std::int32_t item,
+                               std::size_t own,
+                               std::uint32_t x,
+                               std::uint32_t y,
+                               std::int32_t* to) const {
     const Head& head = heads_[own];
     const std::int32_t* const start = to;
     const auto from = static_cast<std::int64_t>(x) - 1;

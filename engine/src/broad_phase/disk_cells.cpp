@@ -8,8 +8,8 @@
 namespace stoss::engine {
 namespace {
 
-/// What it costs to bring a disk to another cell, in looks at a neighbour. Measured; within a factor
-/// of two it hardly matters.
+/// What it costs to bring a disk to another cell, in looks at a neighbour. Measured; within a
+/// factor of two it hardly matters.
 constexpr double kCrossing = 14;
 
 }  // namespace
@@ -99,7 +99,8 @@ DiskCells::Level* DiskCells::level_for(double radius) {
 // is twice the other.
 void DiskCells::look_after(Level& level) {
   constexpr std::uint64_t kOften = 2;  // crossings a disk
-  if (level.is_retired || level.crossings < 256 + kOften * static_cast<std::uint64_t>(level.items)) {
+  if (level.is_retired ||
+      level.crossings < 256 + kOften * static_cast<std::uint64_t>(level.items)) {
     return;
   }
   const auto crossings = static_cast<double>(std::exchange(level.crossings, 0));

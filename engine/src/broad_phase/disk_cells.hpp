@@ -108,11 +108,11 @@ class DiskCells {
       return store_.for_each(level.id, visit);
     }
     store_.for_each({CellStore::floor_of(left),
-                      CellStore::floor_of(low),
-                      CellStore::floor_of(right),
-                      CellStore::floor_of(high)},
-                     level.id,
-                     visit);
+                     CellStore::floor_of(low),
+                     CellStore::floor_of(right),
+                     CellStore::floor_of(high)},
+                    level.id,
+                    visit);
   }
 
   static double least_side(double radius_max) {

@@ -23,8 +23,8 @@
 // Source: near-neighbour lists with per-body updates, Donev, Torquato, Stillinger, J. Comput. Phys.
 // 202 (2005) 737. Deviation: boxes in a hierarchical grid, adaptive margins.
 //
-// Invariant: a body that keeps a list has every neighbour in it that it does not know from cells. No bit of a result depends on
-// boxes, margins or the order of lists.
+// Invariant: a body that keeps a list has every neighbour in it that it does not know from cells.
+// No bit of a result depends on boxes, margins or the order of lists.
 
 #include "body.hpp"
 #include "broad_phase/aabb_tree.hpp"
@@ -97,7 +97,8 @@ class Neighbours {
     for (const Slot other : found) visit(other);
     spare_ = std::move(found);
   }
-  /// After renew() of a disk: has it only gone from one cell to the next, in its plain surroundings?
+  /// After renew() of a disk: has it only gone from one cell to the next, in its plain
+  /// surroundings?
   bool has_only_crossed() const { return has_only_crossed_; }
   /// As of(): whom it has as neighbours now and had not before. Valid until the next call.
   /// REQUIRES: has_only_crossed().
@@ -242,8 +243,7 @@ class Neighbours {
   }
   void note_crossing(Slot slot, const std::optional<DiskCells::Cell>& from) {
     const std::optional<DiskCells::Cell> to = cell_of(slot);
-    has_only_crossed_ =
-        from && to && from->level == to->level && before_.empty() && found_.empty();
+    has_only_crossed_ = from && to && from->level == to->level && before_.empty() && found_.empty();
     if (has_only_crossed_) crossed_from_ = *from;
   }
 
@@ -321,7 +321,7 @@ class Neighbours {
   std::vector<Slot> found_;
   bool has_only_crossed_ = false;  // the body that was renewed last
   DiskCells::Cell crossed_from_;
-  mutable std::vector<Slot> spare_;   // its memory is used again
+  mutable std::vector<Slot> spare_;  // its memory is used again
   std::uint64_t renewals_ = 0;
   mutable std::array<Gathered, 2> gathered_;  // by the last calls of of()
   mutable std::size_t next_gathered_ = 0;

@@ -14,11 +14,11 @@ namespace stoss::engine {
 struct alignas(64) Place {
   double x = 0;  ///< m, of the middle of a disk's box; where a wall's start was
   double y = 0;
-  double half = 0;     ///< m, from the middle of a disk's box to its sides; of a wall the rounding
-  double margin = 0;   ///< m, by how much the box is larger than the body was
-  float low_x = 0;     ///< of `half`: from (x, y) to where the body itself was
-  float low_y = 0;     ///< likewise; not in m, for those may be beyond the range of a float
-  PooledList list;         ///< of neighbours
+  double half = 0;    ///< m, from the middle of a disk's box to its sides; of a wall the rounding
+  double margin = 0;  ///< m, by how much the box is larger than the body was
+  float low_x = 0;    ///< of `half`: from (x, y) to where the body itself was
+  float low_y = 0;    ///< likewise; not in m, for those may be beyond the range of a float
+  PooledList list;    ///< of neighbours
   std::uint16_t work = 0;  ///< predictions looked at since the last renewal, at most
 
   double x_low() const { return static_cast<double>(low_x) * half; }  ///< m
