@@ -424,11 +424,16 @@ void BasicWorld<S, Laws>::prefetch_sights([[maybe_unused]] Slot slot) const {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::look_at_unlike(
     Slot slot, Slot other, bool changed, double now, double renewal, Foresight& ahead) {
+  const Sight& own = sights_.of_slot[index(slot)];
+  const Sight& theirs = sights_.of_slot[index(other)];
+  if (own.unlike == 0 && theirs.unlike == 0) {  // dynamic disks, the other much smaller
+    if (changed) offer(other, slot, soonest_contact(own, theirs, now, kScreenSlack<S>));
+    return;
+  }
   const bool is_held = holds_prediction(slot, other);
   if (!is_held && !changed) return;
   if (at(slot).is_disk() && at(other).is_disk()) {
-    const double soonest = soonest_contact(
-        sights_.of_slot[index(slot)], sights_.of_slot[index(other)], now, kScreenSlack<S>);
+    const double soonest = soonest_contact(own, theirs, now, kScreenSlack<S>);
     return is_held ? ahead.note(other, soonest) : offer(other, slot, soonest);
   }
   if (!is_held) return offer(other, slot, 0);
@@ -480,7 +485,7 @@ void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double ren
     next.clear_for = safe_difference(std::min(ahead.second, limit), ahead.first);
   } else if (limit == renewal) {
     next = Event<S>{};
-    if (!ahead.exact) {
+    if (!ahead.exact && !ahead.has_others) {
       if (ahead.partner >= 0) next = guess_of(ahead);
       next.until_guess = safe_difference(ahead.first, renewal);
       next.clear_for = safe_difference(ahead.second, ahead.first);
@@ -548,6 +553,10 @@ void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
       return;
     }
     soonest = std::max(soonest, rough_seconds(event->at, now_));
+  }
+  if (theirs.kind == EventKind::NeighbourRenewal) {  // what is kept there is no longer all
+    if (theirs.until_guess >= 0) queue_.forget_guess(holder);
+    return;
   }
   if (theirs.kind != EventKind::Guess) return;
   const float clear_for = safe_difference(soonest, horizon);

@@ -127,6 +127,9 @@ class EventQueue {
     put_in(slot, home, ids);
   }
 
+  /// Of a renewal: what the body is to do then, it is to find out then.
+  void forget_guess(std::int32_t slot) { line(slot).event.until_guess = -1; }
+
   template <class Ids>
   void erase(std::int32_t slot, const Ids& ids) {
     if (lines_[index(slot)].home == kAbsent) return;

@@ -97,8 +97,8 @@ class Neighbours {
     for (const Slot other : found) visit(other);
     spare_ = std::move(found);
   }
-  /// After renew() of a disk: has it only gone from one cell to the next, in its plain
-  /// surroundings?
+  /// After renew() of a disk: has it gone from one cell to the next, and found nobody new but
+  /// there?
   bool has_only_crossed() const { return has_only_crossed_; }
   /// As of(): whom it has as neighbours now and had not before. Valid until the next call.
   /// REQUIRES: has_only_crossed().
@@ -243,7 +243,11 @@ class Neighbours {
   }
   void note_crossing(Slot slot, const std::optional<DiskCells::Cell>& from) {
     const std::optional<DiskCells::Cell> to = cell_of(slot);
-    has_only_crossed_ = from && to && from->level == to->level && before_.empty() && found_.empty();
+    has_only_crossed_ = from && to && from->level == to->level && found_.size() <= before_.size();
+    for (const Slot found : found_) {
+      if (!has_only_crossed_) return;
+      has_only_crossed_ = std::find(before_.begin(), before_.end(), found) != before_.end();
+    }
     if (has_only_crossed_) crossed_from_ = *from;
   }
 
