@@ -19,11 +19,16 @@ struct Words {
   [[nodiscard]] DoubleWord<double> operator[](std::size_t i) const { return {hi[i], lo[i]}; }
 };
 
-/// Equation (1) of engine/motion.hpp along one axis.
-void places(const Words& position, const Words& velocity, const Words& elapsed, Column& place) {
+/// Equation (1) of engine/motion.hpp along one axis. Inline and with a column of its own: that no
+/// two columns overlap must be plain, or the compiler takes one flight at a time.
+[[gnu::always_inline]] inline Column places(const Words& position,
+                                            const Words& velocity,
+                                            const Words& elapsed) {
+  Column place;
   for (std::size_t i = 0; i < kFlightsAtOnce; ++i) {
     place[i] = engine::to_scalar(position[i] + velocity[i] * elapsed[i]);
   }
+  return place;
 }
 
 bool is_zero(const engine::SplitNumber& number) { return number.high == 0 && number.low == 0; }
@@ -63,8 +68,8 @@ bool states_at(std::span<const Flight, kFlightsAtOnce> flights,
     is_plain = is_plain && flights[i].id != engine::kNoId && elapsed.hi[i] != 0;
   }
   if (!is_plain) return false;
-  places(x, vx, elapsed, states.x);
-  places(y, vy, elapsed, states.y);
+  states.x = places(x, vx, elapsed);
+  states.y = places(y, vy, elapsed);
   return true;
 }
 
