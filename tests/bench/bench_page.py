@@ -117,8 +117,9 @@ def daemon(results):
     found = results["daemon"].get("frames", [])
     if not found:
         return ""
-    rows = [("raw DDS: ns a body's state", "raw_ns", 1), ("stossd: ns a body's state", "stossd_ns", 1),
-            ("ratio", "ratio", 1), ("frames a second", "frames_per_second", 1),
+    rows = [("raw DDS: ns a body's state", "raw_ns", 1),
+            ("stossd: ns a body's state", "stossd_ns", 1), ("ratio", "ratio", 1),
+            ("frames a second", "frames_per_second", 1),
             ("frames left out", "frames_late", 1), ("real-time factor", "real_time_factor", 1),
             ("ticks late", "ticks_late", 1), ("ticks put off", "ticks_slipped", 1),
             ("world's thread: % of a core", "world_share", 100),

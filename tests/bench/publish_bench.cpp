@@ -90,34 +90,39 @@ class FrameReader {
     const auto until = Clock::now() + seconds;
     while (Clock::now() < until) {
       reader_.drain([&](const dds::Sample<wire::FrameChunk>& sample) {
-        if (sample.valid()) states += sample.data.id._length;
+        if (!sample.valid()) return;
+        states += sample.data.id._length;
+        tick_ = std::max(tick_, sample.data.tick);
       });
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return states;
   }
+  /// The newest that came.
+  [[nodiscard]] std::uint64_t tick() const { return tick_; }
 
  private:
+  std::uint64_t tick_ = 0;
   dds::Topic<wire::FrameChunk> topic_;
   dds::Reader<wire::FrameChunk> reader_;
 };
 
 using Figures = std::map<std::string, double>;
 
-/// ns of its threads and ours for each state of the frames that it sent meanwhile.
+/// A raw writer of frames, read for so long: ns of its threads and ours for each state that it
+/// sent.
 Figures raw_frame_cost(std::size_t bodies, Seconds seconds) {
   Process writer({kSelf, "raw-frames", std::to_string(bodies)});
-  WireClient client(kDomain, kWorld, 1);
+  WireClient client(kDomain, kRawWorld, 1);
   FrameReader frames(client);
   frames.states_in(kWarmUp);
-  const auto begun = Clock::now();
+  const std::uint64_t first = frames.tick();
   const ThreadTimes sender = thread_times(writer.pid());
   const ThreadTimes receiver = thread_times(getpid());
   const double states = frames.states_in(seconds);
   const double sender_ns = (thread_times(writer.pid()) - sender).all;
   const double receiver_ns = (thread_times(getpid()) - receiver).all;
-  const double sent =
-      Seconds(Clock::now() - begun).count() * kFramesPerSecond * static_cast<double>(bodies);
+  const double sent = static_cast<double>((frames.tick() - first) * bodies);
   return {{"raw_ns", sender_ns / sent},
           {"raw_receiver_ns", receiver_ns / sent},
           {"raw_arrived", states / sent}};
@@ -159,7 +164,8 @@ struct Stretch {
   double frames;
 };
 
-Figures daemon_frame_cost(const std::string& scene, std::size_t bodies, Seconds seconds) {
+/// The daemon's world goes on while the raw writer is measured, so that both have the same company.
+Figures frame_cost(const std::string& scene, std::size_t bodies, Seconds seconds) {
   Process daemon(tests::stossd(
       kDomain,
       {"--scene", scene, "--world", kWorld, "--frame-rate", std::to_string(kFramesPerSecond)}));
@@ -169,6 +175,7 @@ Figures daemon_frame_cost(const std::string& scene, std::size_t bodies, Seconds 
   const Look alone = look_at(daemon, client);
   std::this_thread::sleep_for(seconds);
   const Look alone_after = look_at(daemon, client);
+  Figures figures = raw_frame_cost(bodies, seconds);
 
   FrameReader frames(client);
   frames.states_in(kWarmUp);
@@ -186,19 +193,21 @@ Figures daemon_frame_cost(const std::string& scene, std::size_t bodies, Seconds 
   const double simulated_s = engine::seconds_between(translate::to_engine(before.status.at),
                                                      translate::to_engine(after.status.at));
   const double sent = busy.frames * static_cast<double>(bodies);
-  return {{"stossd_ns", (busy.others_ns - following_ns * busy.events) / sent},
-          {"following_ns", following_ns},
-          {"stossd_receiver_ns", busy.receiver_ns / sent},
-          {"stossd_arrived", states / sent},
-          {"frames_per_second", busy.frames / real_s},
-          {"frames_late", after.frames_late - before.frames_late},
-          {"world_ns_alone", quiet.world_ns / quiet.events},
-          {"world_ns_publishing", busy.world_ns / busy.events},
-          {"world_share", busy.world_ns / (1e9 * real_s)},
-          {"others_share", busy.others_ns / (1e9 * real_s)},
-          {"real_time_factor", simulated_s / real_s},
-          {"ticks_late", between(before.status.ticks_late, after.status.ticks_late)},
-          {"ticks_slipped", between(before.status.ticks_slipped, after.status.ticks_slipped)}};
+  figures.merge(
+      Figures{{"stossd_ns", (busy.others_ns - following_ns * busy.events) / sent},
+              {"following_ns", following_ns},
+              {"stossd_receiver_ns", busy.receiver_ns / sent},
+              {"stossd_arrived", states / sent},
+              {"frames_per_second", busy.frames / real_s},
+              {"frames_late", after.frames_late - before.frames_late},
+              {"world_ns_alone", quiet.world_ns / quiet.events},
+              {"world_ns_publishing", busy.world_ns / busy.events},
+              {"world_share", busy.world_ns / (1e9 * real_s)},
+              {"others_share", busy.others_ns / (1e9 * real_s)},
+              {"real_time_factor", simulated_s / real_s},
+              {"ticks_late", between(before.status.ticks_late, after.status.ticks_late)},
+              {"ticks_slipped", between(before.status.ticks_slipped, after.status.ticks_slipped)}});
+  return figures;
 }
 
 /// Windows of commands for so long; ns of the other process for each command answered.
@@ -296,9 +305,7 @@ int run(const Options& options) {
     const std::string scene = write_scene(bodies);
     std::vector<Figures> rounds, commands;
     for (int round = 0; round < options.rounds; ++round) {
-      Figures figures = raw_frame_cost(bodies, seconds);
-      figures.merge(daemon_frame_cost(scene, bodies, seconds));
-      rounds.push_back(figures);
+      rounds.push_back(frame_cost(scene, bodies, seconds));
       if (bodies == kCommandBodies) commands.push_back(command_cost(scene, seconds));
     }
     std::filesystem::remove(scene);

@@ -29,7 +29,7 @@ dds::Participant daemon_like() {
 int raw_frames(std::size_t bodies) {
   constexpr std::size_t kChunk = stoss_v1_MAX_FRAME_BODIES;
   const dds::Participant participant = daemon_like();
-  const dds::Publisher publisher(participant, idl::partition_of(kWorld));
+  const dds::Publisher publisher(participant, idl::partition_of(kRawWorld));
   const auto topic = idl::make_topic(participant, idl::kFrameTopic);
   auto writer = idl::make_writer(publisher, topic, idl::kFrameTopic);
   std::vector<std::uint64_t> id(bodies);

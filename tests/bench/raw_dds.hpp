@@ -10,6 +10,7 @@ namespace stoss::bench {
 
 inline constexpr unsigned kDomain = 67;
 inline constexpr const char* kWorld = "bench";
+inline constexpr const char* kRawWorld = "raw";  ///< where raw_frames() writes
 inline constexpr int kFramesPerSecond = 60;
 
 /// Writes frames of so many bodies from arrays of its own.
