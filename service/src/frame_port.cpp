@@ -17,55 +17,78 @@ void FramePort::publish(const Picture& picture) {
   if (readers == 0 || !is_new) return;
   last_ = picture.moment();
   last_scene_ = picture.scene_version();
-  fill(picture);
-  const std::size_t rows = id_.size();
-  const std::size_t chunks =
-      std::max<std::size_t>(1, (rows + stoss_v1_MAX_FRAME_BODIES - 1) / stoss_v1_MAX_FRAME_BODIES);
+  const std::size_t chunks = std::max<std::size_t>(
+      1, (picture.disk_count() + stoss_v1_MAX_FRAME_BODIES - 1) / stoss_v1_MAX_FRAME_BODIES);
   drop_chunks_from(static_cast<std::uint32_t>(chunks));
-  const auto& angle = angle_.padded(rows);
-  const auto& spin = spin_.padded(rows);
-  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    const std::size_t first = chunk * stoss_v1_MAX_FRAME_BODIES;
-    const std::size_t count = std::min<std::size_t>(stoss_v1_MAX_FRAME_BODIES, rows - first);
-    const auto slice = [&](const auto& column) {
-      return std::span(column).subspan(column.empty() ? 0 : first, column.empty() ? 0 : count);
-    };
-    wire::FrameChunk sample{};
-    sample.chunk = static_cast<std::uint32_t>(chunk);
-    sample.chunks = static_cast<std::uint32_t>(chunks);
-    sample.epoch = last_->epoch;
-    sample.tick = last_->tick;
-    sample.at = translate::to_wire(last_->at);
-    idl::lend(sample.id, slice(id_));
-    idl::lend(sample.x, slice(x_));
-    idl::lend(sample.y, slice(y_));
-    idl::lend(sample.vx, slice(vx_));
-    idl::lend(sample.vy, slice(vy_));
-    idl::lend(sample.angle, slice(angle));
-    idl::lend(sample.spin, slice(spin));
-    idl::lend(sample.radius, slice(radius_));
-    static_cast<void>(writer_.write(sample));
+  std::size_t body = 0;
+  for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk) {
+    body = fill(picture, body);
+    write(chunk);
   }
   ++count_;
 }
 
-void FramePort::fill(const Picture& picture) {
+void FramePort::write(std::uint32_t chunk) {
+  const std::size_t rows = id_.size();
+  wire::FrameChunk sample{};
+  sample.chunk = chunk;
+  sample.chunks = chunks_;
+  sample.epoch = last_->epoch;
+  sample.tick = last_->tick;
+  sample.at = translate::to_wire(last_->at);
+  idl::lend(sample.id, id_);
+  idl::lend(sample.x, x_);
+  idl::lend(sample.y, y_);
+  idl::lend(sample.vx, vx_);
+  idl::lend(sample.vy, vy_);
+  idl::lend(sample.angle, angle_.padded(rows));
+  idl::lend(sample.spin, spin_.padded(rows));
+  idl::lend(sample.radius, radius_);
+  static_cast<void>(writer_.write(sample));
+}
+
+std::size_t FramePort::fill(const Picture& picture, std::size_t body) {
   id_.clear();
   for (auto* column : {&x_, &y_, &vx_, &vy_, &radius_}) column->clear();
   angle_.clear();
   spin_.clear();
-  for (const Picture::Body& body : picture.bodies()) {
-    if (body.record.is_wall) continue;
-    const engine::BodyState state = picture.state_of(body);
-    angle_.append(id_.size(), state.angle);
-    spin_.append(id_.size(), state.spin);
-    id_.push_back(state.id);
-    x_.push_back(state.position.x());
-    y_.push_back(state.position.y());
-    vx_.push_back(state.velocity.x());
-    vy_.push_back(state.velocity.y());
-    if (picture.has_grown()) radius_.push_back(state.radius);
+  const std::span flights(picture.flights());
+  FlightStates states;
+  while (body < flights.size() && id_.size() < stoss_v1_MAX_FRAME_BODIES) {
+    const std::size_t end = std::min(flights.size(), body + kFlightsAtOnce);
+    const bool is_full =
+        end - body == kFlightsAtOnce && id_.size() + kFlightsAtOnce <= stoss_v1_MAX_FRAME_BODIES;
+    if (is_full && !picture.has_grown() &&
+        states_at(flights.subspan(body).first<kFlightsAtOnce>(), picture.moment().at, states)) {
+      append(states);
+      body = end;
+      continue;
+    }
+    for (; body < end && id_.size() < stoss_v1_MAX_FRAME_BODIES; ++body) {
+      const Picture::Body& one = picture.bodies()[body];
+      if (!one.record.is_wall) append(picture.state_of(one), picture.has_grown());
+    }
   }
+  return body;
+}
+
+void FramePort::append(const FlightStates& states) {
+  id_.insert(id_.end(), states.id.begin(), states.id.end());
+  x_.insert(x_.end(), states.x.begin(), states.x.end());
+  y_.insert(y_.end(), states.y.begin(), states.y.end());
+  vx_.insert(vx_.end(), states.vx.begin(), states.vx.end());
+  vy_.insert(vy_.end(), states.vy.begin(), states.vy.end());
+}
+
+void FramePort::append(const engine::BodyState& state, bool has_grown) {
+  angle_.append(id_.size(), state.angle);
+  spin_.append(id_.size(), state.spin);
+  id_.push_back(state.id);
+  x_.push_back(state.position.x());
+  y_.push_back(state.position.y());
+  vx_.push_back(state.velocity.x());
+  vy_.push_back(state.velocity.y());
+  if (has_grown) radius_.push_back(state.radius);
 }
 
 void FramePort::drop_chunks_from(std::uint32_t chunks) {

@@ -27,7 +27,11 @@ class FramePort {
   [[nodiscard]] std::uint64_t failures() const { return writer_.failures(); }
 
  private:
-  void fill(const Picture& picture);
+  /// The next chunk: as many disks as it holds, from this body on. Returns the first body after.
+  std::size_t fill(const Picture& picture, std::size_t body);
+  void append(const FlightStates& states);
+  void append(const engine::BodyState& state, bool has_grown);
+  void write(std::uint32_t chunk);
   void drop_chunks_from(std::uint32_t chunks);
 
   dds::Writer<wire::FrameChunk> writer_;
@@ -36,7 +40,7 @@ class FramePort {
   int readers_ = 0;
   std::optional<Moment> last_;
   std::uint64_t last_scene_ = 0;
-  std::vector<std::uint64_t> id_;
+  std::vector<std::uint64_t> id_;  ///< of the chunk at hand, as the columns that follow
   std::vector<double> x_, y_, vx_, vy_;
   std::vector<double> radius_;  ///< empty while no disk has grown
   translate::SparseColumn angle_, spin_;

@@ -9,10 +9,13 @@
 namespace stoss::service {
 void Picture::begin(const EpochRecord& record) {
   bodies_.clear();
+  flights_.clear();
+  walls_ = 0;
   index_.clear();
   names_.clear();
   has_grown_ = false;
   bodies_.reserve(record.bodies.size());
+  flights_.reserve(record.bodies.size());
   index_.reserve(record.bodies.size());
   for (const BodyChange& body : record.bodies) put(body);
   zones_ = record.zones;
@@ -42,11 +45,15 @@ void Picture::apply(const TickRecord& record) {
 }
 
 void Picture::put(const BodyChange& change) {
+  const Flight flight = flight_of(change.motion, change.body, arithmetic_, period_);
   const auto [entry, is_new] = index_.try_emplace(change.motion.id, bodies_.size());
   if (is_new) {
     bodies_.push_back({change.motion, change.body});
+    flights_.push_back(flight);
+    if (change.body.is_wall) ++walls_;
   } else {
     bodies_[entry->second] = {change.motion, change.body};
+    flights_[entry->second] = flight;
   }
   if (is_new || change.body.is_wall) ++scene_version_;
   has_grown_ = has_grown_ || change.motion.radius.high != 0;
@@ -70,11 +77,14 @@ void Picture::remove(engine::Id id) {
   if (entry == index_.end()) return;
   const std::size_t hole = entry->second;
   index_.erase(entry);
+  if (bodies_[hole].record.is_wall) --walls_;
   if (hole + 1 != bodies_.size()) {
     bodies_[hole] = bodies_.back();
+    flights_[hole] = flights_.back();
     index_[bodies_[hole].motion.id] = hole;
   }
   bodies_.pop_back();
+  flights_.pop_back();
   names_.erase(id);
   ++scene_version_;
 }

@@ -4,6 +4,7 @@
 // evaluates motions with the engine's own code, to the same bits.
 #pragma once
 
+#include "flights.hpp"
 #include "records.hpp"
 
 #include <stoss/engine/types.hpp>
@@ -43,6 +44,10 @@ class Picture {
   };
   /// In no order.
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
+  [[nodiscard]] std::size_t disk_count() const { return bodies_.size() - walls_; }
+
+  /// One a body, in the order of bodies().
+  [[nodiscard]] const std::vector<Flight>& flights() const { return flights_; }
   /// In the order of ids.
   [[nodiscard]] std::vector<const Body*> ordered() const;
   /// Null when there is none.
@@ -72,6 +77,8 @@ class Picture {
   std::uint64_t scene_version_ = 0;
   bool has_grown_ = false;
   std::vector<Body> bodies_;
+  std::vector<Flight> flights_;
+  std::size_t walls_ = 0;
   std::unordered_map<engine::Id, std::size_t> index_;
   std::unordered_map<engine::Id, std::string> names_;
   std::vector<engine::ZoneState> zones_;

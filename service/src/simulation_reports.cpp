@@ -223,7 +223,9 @@ void Simulation::publish(bool at_any_rate) {
   put_off_ = false;
   TickRecord record;
   record.moment = moment();
-  for (const engine::Change& change : world_.drain_changes()) {
+  const std::vector<engine::Change> changes = world_.drain_changes();
+  record.changes.reserve(changes.size());
+  for (const engine::Change& change : changes) {
     BodyChange& entry = record.changes.emplace_back();
     entry.kind = change.kind;
     if (change.kind == engine::ChangeKind::Removed) {

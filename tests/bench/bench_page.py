@@ -113,11 +113,30 @@ def loading(results):
 
 
 def daemon(results):
-    lines = [[what, plain(row["raw_ns"]), plain(row["stossd_ns"]),
-              plain(row["stossd_ns"] / row["raw_ns"])]
-             for what, row in results.get("daemon", {}).items()]
-    return table(["CPU ns of the sender, 10,000 bodies at 60 Hz", "raw DDS", "stossd", "ratio"],
-                 lines)
+    """Raw DDS and the daemon, a column for each number of bodies."""
+    found = results["daemon"].get("frames", [])
+    if not found:
+        return ""
+    rows = [("raw DDS: ns a body's state", "raw_ns", 1),
+            ("stossd: ns a body's state", "stossd_ns", 1), ("ratio", "ratio", 1),
+            ("frames a second", "frames_per_second", 1),
+            ("frames left out", "frames_late", 1), ("real-time factor", "real_time_factor", 1),
+            ("ticks late", "ticks_late", 1), ("ticks put off", "ticks_slipped", 1),
+            ("world's thread: % of a core", "world_share", 100),
+            ("its ns an event while frames are read", "world_ns_publishing", 1),
+            ("its ns an event without readers", "world_ns_alone", 1),
+            ("other threads: % of a core", "others_share", 100),
+            ("their ns an event, to follow the world", "following_ns", 1)]
+    lines = [[what, *(figure(frames, key, factor) for frames in found)]
+             for what, key, factor in rows]
+    command = results["daemon"].get("command")
+    if command:
+        lines.append(["a command and its reply: raw DDS, stossd, ratio",
+                      f"{plain(command['raw_ns'])} / {plain(command['stossd_ns'])} / "
+                      f"{plain(command['ratio'])}", *("" for _ in found[1:])])
+    heads = ["frames at 60 Hz, one reader", *(f"{row['bodies']:,} bodies" for row in found)]
+    return (table(heads, lines) + f"\n\nLoad {results['daemon']['load_before']:.1f} before, "
+            f"{results['daemon']['load_after']:.1f} after.")
 
 
 def kernels(results):
@@ -161,9 +180,11 @@ def verdicts(results):
     load = find(results, "load")
     yield (f"loading {load['disks']:,} disks: s" if load else "loading: s",
            load and 1e-9 * load["ns"], 2 if load and load["disks"] == 1_000_000 else 0.2, False)
-    state = results.get("daemon", {}).get("a body's state in a frame")
-    yield ("publishing a body's state: CPU beside raw DDS",
-           state and state["stossd_ns"] / state["raw_ns"], 1.5, False)
+    for frames in results["daemon"].get("frames", []):
+        yield (f"publishing {frames['bodies']:,} bodies: CPU beside raw DDS", frames["ratio"], 1.5,
+               False)
+        yield (f"daemon at {frames['bodies']:,} bodies and 60 Hz: real-time factor",
+               frames["real_time_factor"], 0.999, True)
     body = gas(100_000)
     yield "bytes a body", body and body["bytes_per_body"], 256, False
 

@@ -2,10 +2,8 @@
 // A client that comes late has the whole world, exactly. How long that takes is printed and not
 // judged: the machine may be busy.
 #include "client_digest.hpp"
-#include "daemon_process.hpp"
+#include "live_world.hpp"
 
-#include <stoss/client/replica.hpp>
-#include <stoss/client/session.hpp>
 #include <stoss/idl/scene_file.hpp>
 
 #include <scene.pb.h>
@@ -18,15 +16,7 @@
 namespace stoss::tests {
 namespace {
 
-using client::Answer;
-using client::Command;
-using client::Milliseconds;
-using client::Query;
-using client::Replica;
-using client::Session;
-
 constexpr unsigned kDomain = 83;
-constexpr Milliseconds kPatience{30'000};
 
 Effects falling() {
   Effects effects;

@@ -3,10 +3,8 @@
 // picture to the bit, and the world itself is within a rounding of it. Domain 69.
 #include "client_digest.hpp"
 #include "clients/run_program.hpp"
-#include "daemon_process.hpp"
+#include "live_world.hpp"
 
-#include <stoss/client/replica.hpp>
-#include <stoss/client/session.hpp>
 #include <stoss/translate/scene.hpp>
 
 #include <nlohmann/json.hpp>
@@ -18,15 +16,7 @@
 namespace stoss::tests {
 namespace {
 
-using client::Answer;
-using client::Command;
-using client::Milliseconds;
-using client::Query;
-using client::Replica;
-using client::Session;
-
 constexpr unsigned kDomain = 69;
-constexpr Milliseconds kPatience{30'000};
 
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);

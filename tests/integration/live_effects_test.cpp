@@ -3,12 +3,10 @@
 // itself.
 #include "client_digest.hpp"
 #include "clients/run_program.hpp"
-#include "daemon_process.hpp"
+#include "live_world.hpp"
 
 #include <stoss/client/decimal.hpp>
 #include <stoss/client/feeds.hpp>
-#include <stoss/client/replica.hpp>
-#include <stoss/client/session.hpp>
 
 #include <fstream>
 #include <future>
@@ -19,15 +17,7 @@
 namespace stoss::tests {
 namespace {
 
-using client::Answer;
-using client::Command;
-using client::Milliseconds;
-using client::Query;
-using client::Replica;
-using client::Session;
-
 constexpr unsigned kDomain = 84;
-constexpr Milliseconds kPatience{30'000};
 
 /// A daemon with a scene of the test's own, and a session with it.
 class LiveEffects : public testing::Test {

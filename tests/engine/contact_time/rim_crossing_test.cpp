@@ -21,6 +21,14 @@ using test::Real;
 using test::RimCase;
 using test::RimCensus;
 
+/// No crossing was missed, none was made up, and none is further off than `ulp_max`.
+void expect_none_missed(test::Census& census, double ulp_max) {
+  census.print();
+  EXPECT_EQ(census.missed(), 0);
+  EXPECT_EQ(census.falses(), 0);
+  EXPECT_LE(census.max(), ulp_max);
+}
+
 /// Runs the cases of `make` as they are, and taken up inside the circle.
 template <class S, class Make, class Kernel>
 void expect_exact(const std::string& name,
@@ -37,13 +45,8 @@ void expect_exact(const std::string& name,
     const auto inside = test::taken_up_inside(c, random, test::kDecades<S>.finest);
     if (inside) from_within.add(*inside, kernel);
   }
-  for (RimCensus* census : {&from_without, &from_within}) {
-    census->errors.print();
-    EXPECT_EQ(census->errors.missed(), 0);
-    EXPECT_EQ(census->errors.falses(), 0);
-  }
-  EXPECT_LE(from_without.errors.max(), ulp_max);
-  EXPECT_LE(from_within.errors.max(), ulp_max_within);
+  expect_none_missed(from_without.errors, ulp_max);
+  expect_none_missed(from_within.errors, ulp_max_within);
 }
 
 template <class S>
@@ -230,12 +233,8 @@ TEST(RimCrossing, MissesNothingUnderDrag) {
       ask(c, from_without);
       if (const auto inside = taken_up_inside(c, random)) ask(*inside, from_within);
     }
-    for (test::Census* census : {&from_without, &from_within}) {
-      census->print();
-      EXPECT_EQ(census->missed(), 0);
-      EXPECT_EQ(census->falses(), 0);
-      EXPECT_LE(census->max(), 0.51);
-    }
+    expect_none_missed(from_without, 0.51);
+    expect_none_missed(from_within, 0.51);
   }
 }
 
@@ -273,12 +272,8 @@ TEST(RimCrossing, MissesNothingOnStraightFlightsUnderDrag) {
       ask(outside, from_without);
       if (const auto c = test::taken_up_inside(outside, random, -17)) ask(*c, from_within);
     }
-    for (test::Census* census : {&from_without, &from_within}) {
-      census->print();
-      EXPECT_EQ(census->missed(), 0);
-      EXPECT_EQ(census->falses(), 0);
-      EXPECT_LE(census->max(), 200);
-    }
+    expect_none_missed(from_without, 200);
+    expect_none_missed(from_within, 200);
   }
 }
 

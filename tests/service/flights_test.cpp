@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// What frames read of a picture is what the picture itself says, to the bit.
+#include "flights.hpp"
+
+#include "picture.hpp"
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace stoss::service {
+namespace {
+
+using engine::Arithmetic;
+using engine::Instant;
+using engine::MotionRecord;
+using test::Random;
+
+constexpr Instant kNow{1'000'000, 0x123456789abcdef0U};
+
+std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+/// Two words that overlap by no bit, and sometimes a zero of either sign.
+engine::SplitNumber split(Random& random, double size) {
+  if (random.one_in(8)) return {random.one_in(2) ? -0.0 : 0.0, 0};
+  const double high = random.uniform(-size, size);
+  return {high, high * 0x1p-54 * random.uniform(-1, 1)};
+}
+
+BodyChange disk(engine::Id id, Random& random) {
+  BodyChange change;
+  change.kind = engine::ChangeKind::Spawned;
+  change.motion.id = change.body.id = id;
+  change.motion.x = split(random, 1e3);
+  change.motion.y = split(random, 1e-3);
+  change.motion.vx = split(random, 10);
+  change.motion.vy = split(random, 1e6);
+  change.motion.since = {kNow.seconds - static_cast<std::int64_t>(random.uniform(-5, 1e6)),
+                         static_cast<std::uint64_t>(random.uniform(0, 1e19))};
+  change.body.radius = 0.5;
+  return change;
+}
+
+std::vector<BodyChange> disks(std::size_t count, Random& random) {
+  std::vector<BodyChange> all;
+  for (engine::Id id = 1; id <= count; ++id) all.push_back(disk(id, random));
+  return all;
+}
+
+Picture picture_of(std::vector<BodyChange> bodies, Arithmetic arithmetic = Arithmetic::Double) {
+  EpochRecord record;
+  record.moment.at = kNow;
+  record.bodies = std::move(bodies);
+  Picture picture(arithmetic);
+  picture.begin(record);
+  return picture;
+}
+
+bool states_of(const Picture& picture, FlightStates& states) {
+  return states_at(std::span(picture.flights()).first<kFlightsAtOnce>(), kNow, states);
+}
+
+bool is_flight(const BodyChange& change,
+               Arithmetic arithmetic = Arithmetic::Double,
+               const engine::Vector2& period = engine::Vector2::Zero()) {
+  return flight_of(change.motion, change.body, arithmetic, period).id != engine::kNoId;
+}
+
+TEST(Flights, HaveTheStatesOfThePicture) {
+  Random random(20);
+  for (const Arithmetic arithmetic : {Arithmetic::Double, Arithmetic::LongDouble}) {
+    for (int round = 0; round < 300; ++round) {
+      const Picture picture = picture_of(disks(kFlightsAtOnce, random), arithmetic);
+      FlightStates states;
+      ASSERT_TRUE(states_of(picture, states));
+      for (std::size_t i = 0; i < kFlightsAtOnce; ++i) {
+        const engine::BodyState state = picture.state_of(picture.bodies()[i]);
+        EXPECT_EQ(states.id[i], state.id);
+        EXPECT_EQ(bits(states.x[i]), bits(state.position.x()));
+        EXPECT_EQ(bits(states.y[i]), bits(state.position.y()));
+        EXPECT_EQ(bits(states.vx[i]), bits(state.velocity.x()));
+        EXPECT_EQ(bits(states.vy[i]), bits(state.velocity.y()));
+        EXPECT_EQ(state.angle, 0);
+        EXPECT_EQ(state.spin, 0);
+      }
+    }
+  }
+}
+
+TEST(Flights, AreNotWhatHasMoreToTell) {
+  Random random(21);
+  const BodyChange plain = disk(1, random);
+  EXPECT_TRUE(is_flight(plain));
+  EXPECT_FALSE(is_flight(plain, Arithmetic::Float));
+  EXPECT_FALSE(is_flight(plain, Arithmetic::Double, {0, 20}));
+  BodyChange wall = plain;
+  wall.body.is_wall = true;
+  EXPECT_FALSE(is_flight(wall));
+  for (auto field : {&MotionRecord::angle, &MotionRecord::spin, &MotionRecord::drag}) {
+    BodyChange other = plain;
+    other.motion.*field = 0.1;
+    EXPECT_FALSE(is_flight(other));
+  }
+  for (auto field : {&MotionRecord::ax, &MotionRecord::ay, &MotionRecord::radius}) {
+    BodyChange other = plain;
+    (other.motion.*field).high = 0.1;
+    EXPECT_FALSE(is_flight(other));
+  }
+}
+
+TEST(Flights, AreRefusedTogetherWhenOneIsNoneOrBeginsNow) {
+  Random random(22);
+  const std::vector<BodyChange> all = disks(kFlightsAtOnce, random);
+  FlightStates states;
+  EXPECT_TRUE(states_of(picture_of(all), states));
+  std::vector<BodyChange> others = all;
+  others[7].motion.spin = 1;
+  EXPECT_FALSE(states_of(picture_of(others), states));
+  others = all;
+  others.back().motion.since = kNow;
+  EXPECT_FALSE(states_of(picture_of(others), states));
+}
+
+TEST(Flights, StandBesideTheirBodiesWhileBodiesComeAndGo) {
+  Random random(23);
+  std::vector<BodyChange> bodies = disks(40, random);
+  bodies[4].body.is_wall = true;
+  Picture picture = picture_of(bodies);
+  EXPECT_EQ(picture.disk_count(), 39U);
+  engine::Id next = 41;
+  for (int round = 0; round < 200; ++round) {
+    TickRecord record;
+    record.moment.at = kNow;
+    BodyChange& change = record.changes.emplace_back(disk(next, random));
+    if (random.one_in(2)) {
+      change.body.is_wall = random.one_in(4);
+      ++next;
+    } else {
+      change.kind = engine::ChangeKind::Removed;
+      change.motion.id = static_cast<engine::Id>(random.uniform(1, static_cast<double>(next)));
+    }
+    picture.apply(record);
+    ASSERT_EQ(picture.flights().size(), picture.size());
+    std::size_t walls = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const Picture::Body& body = picture.bodies()[i];
+      if (body.record.is_wall) ++walls;
+      EXPECT_EQ(picture.flights()[i].id, body.record.is_wall ? engine::kNoId : body.motion.id);
+    }
+    EXPECT_EQ(picture.disk_count() + walls, picture.size());
+  }
+}
+
+}  // namespace
+}  // namespace stoss::service
