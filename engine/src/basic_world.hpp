@@ -479,12 +479,12 @@ class BasicWorld final : public WorldCore {
   Time<S> crowded_instant_ = Time<S>::never();  ///< of the last collision
   std::uint64_t crowd_ = 0;                     ///< collisions at that instant since a command
   Contact due_{};                               ///< of the event that was sharpened last
-  bool has_due_ = false;                        ///< until another event is processed
+  Slot due_slot_ = -1;                          ///< whose that is, until an event is processed
 
   // The bodies' digests, brought up to date for those that changed when the hash is asked for.
   struct Digests {
     std::vector<std::uint64_t> of_slot;
-    std::vector<bool> is_stale;
+    std::vector<std::uint8_t> is_stale;  // not bits: noted twice a collision
     std::vector<Slot> stale;
     std::uint64_t sum = 0;
   };

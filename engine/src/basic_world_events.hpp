@@ -29,7 +29,7 @@ Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
                   .reason = "the instant is in the past: the world has moved on"};
   }
   AdvanceReport report;
-  has_due_ = false;
+  due_slot_ = -1;
   const std::uint64_t collisions_before = counters_.collisions;
   const Time<S> end = std::max(now_, from_instant<Time<S>>(until));
   for (Slot slot = next_slot(); slot >= 0 && queue_.event_of(slot).at <= end; slot = next_slot()) {
@@ -114,7 +114,7 @@ bool BasicWorld<S, Laws>::is_stale(const Event<S>& event) const {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   const Event<S> event = queue_.event_of(slot);
-  const bool has_due = std::exchange(has_due_, false);
+  const bool is_due = std::exchange(due_slot_, -1) == slot;
   if (event.kind == EventKind::NeighbourRenewal) {
     ++counters_.renewals;
     if (has_no_place(slot)) return false;
@@ -144,23 +144,22 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
       return true;
     }
   }
-  const bool is_due = has_due && ((due_.a == slot && due_.b == event.partner) ||
-                                  (due_.b == slot && due_.a == event.partner));
-  std::optional<Contact> found;
-  if (!is_due) found = contact_of(slot, event.partner);
-  const Contact* const contact = is_due ? &due_ : (found ? &*found : nullptr);
-  check(contact != nullptr, "a scheduled contact is no contact of the stored motions");
+  if (!is_due) {
+    const std::optional<Contact> found = contact_of(slot, event.partner);
+    check(found.has_value(), "a scheduled contact is no contact of the stored motions");
+    due_ = *found;
+  }
   check(event.at >= now_, "a contact was scheduled in the past");
-  if (has_stalled(event.at) || is_squeezed(*contact)) return false;
+  if (has_stalled(event.at) || is_squeezed(due_)) return false;
   count_towards_stall();
   if constexpr (kHasSights<Laws>) {
     if (!all_pairs()) {
-      for (const Slot own : {contact->a, contact->b}) {
+      for (const Slot own : {due_.a, due_.b}) {
         if (at(own).is_dynamic()) prefetch_sights(own);
       }
     }
   }
-  resolve(*contact, event.at, sink);
+  resolve(due_, event.at, sink);
   if (!at(slot).is_dynamic()) predict(slot, /*changed=*/false);
   return true;
 }
@@ -282,7 +281,8 @@ bool BasicWorld<S, Laws>::is_simultaneous(const Contact& contact,
 
 // From a to b; only its direction matters to the contact law.
 template <class S, class Laws>
-DoubleWord2<S> BasicWorld<S, Laws>::contact_vector(const Contact& contact) const {
+[[gnu::always_inline]] inline DoubleWord2<S> BasicWorld<S, Laws>::contact_vector(
+    const Contact& contact) const {
   if (contact.kind == EventKind::DiskWall) {
     const DoubleWord2<S>& edge = shape(contact.b).edge;
     const DoubleWord2<S> q = Laws::kCurved
@@ -301,7 +301,7 @@ void BasicWorld<S, Laws>::rebase(Slot slot, const Time<S>& instant) {
   turn(slot, instant);
   const DoubleWord2<S> position = position_of(slot, instant);
   if constexpr (Laws::kGrows) body.grown = radius_of(slot, instant);
-  body.motion.velocity = velocity_of(slot, instant);
+  if constexpr (Laws::kCurved) body.motion.velocity = velocity_of(slot, instant);
   body.motion.position = position;
   body.motion.since = instant;
   ++body.changes;

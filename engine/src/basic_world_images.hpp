@@ -221,9 +221,8 @@ Vector2 BasicWorld<S, Laws>::shown(const DoubleWord2<S>& position) const {
 
 /// p - q, of the image of p.
 template <class S, class Laws>
-DoubleWord2<S> BasicWorld<S, Laws>::apart(const DoubleWord2<S>& p,
-                                          const DoubleWord2<S>& q,
-                                          [[maybe_unused]] const Which& image) const {
+[[gnu::always_inline]] inline DoubleWord2<S> BasicWorld<S, Laws>::apart(
+    const DoubleWord2<S>& p, const DoubleWord2<S>& q, [[maybe_unused]] const Which& image) const {
   if constexpr (Laws::kPlain) {
     return p - q;
   } else {

@@ -95,10 +95,8 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
 }
 
 template <class S, class Laws>
-auto BasicWorld<S, Laws>::relative_motion(Slot of,
-                                          Slot from,
-                                          const Time<S>& reference,
-                                          const Which& image) const -> Relative {
+[[gnu::always_inline]] inline auto BasicWorld<S, Laws>::relative_motion(
+    Slot of, Slot from, const Time<S>& reference, const Which& image) const -> Relative {
   if constexpr (Laws::kDragged) {
     const Flight<S> a = flight_of(of, reference);
     const Flight<S> b = flight_of(from, reference);
@@ -122,20 +120,19 @@ auto BasicWorld<S, Laws>::relative_motion(Slot of,
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::disk_disk_contact_of(Slot a, Slot b, const Which& image) const
     -> std::optional<Contact> {
-  Contact contact{.a = a,
-                  .b = b,
-                  .kind = EventKind::DiskDisk,
-                  .feature = WallFeature::Face,
-                  .reference = std::max(at(a).motion.since, at(b).motion.since),
-                  .relative = {},
-                  .after_reference = {},
-                  .image = image};
-  contact.relative = relative_motion(b, a, contact.reference, image);
-  const auto after = Laws::pair_contact(
-      contact.relative, reach_between(a, b, contact.reference), valid_for(a, b, contact.reference));
+  const Time<S> reference = std::max(at(a).motion.since, at(b).motion.since);
+  const Relative relative = relative_motion(b, a, reference, image);
+  const auto after =
+      Laws::pair_contact(relative, reach_between(a, b, reference), valid_for(a, b, reference));
   if (!after) return std::nullopt;
-  contact.after_reference = *after;
-  return contact;
+  return Contact{.a = a,
+                 .b = b,
+                 .kind = EventKind::DiskDisk,
+                 .feature = WallFeature::Face,
+                 .reference = reference,
+                 .relative = relative,
+                 .after_reference = *after,
+                 .image = image};
 }
 
 template <class S, class Laws>
@@ -236,7 +233,8 @@ std::optional<Event<S>> BasicWorld<S, Laws>::event_with(Slot holder, Slot partne
 }
 
 template <class S, class Laws>
-std::optional<Event<S>> BasicWorld<S, Laws>::event_of(const Contact& contact, Slot partner) const {
+[[gnu::always_inline]] inline std::optional<Event<S>> BasicWorld<S, Laws>::event_of(
+    const Contact& contact, Slot partner) const {
   const auto instant =
       later_by(contact.reference, contact.after_reference.hi, contact.after_reference.lo);
   if (!instant) return std::nullopt;
@@ -568,20 +566,23 @@ void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
 // The guess of a body has come up: asks the kernel.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::sharpen(Slot slot) {
-  const Event<S> guess = queue_.event_of(slot);
-  for (const Slot own : {slot, guess.partner}) {
+  const Event<S>& guess = queue_.event_of(slot);
+  const auto ask_for = [this](Slot own) {
     prefetch_all(at(own));
     neighbours_.prefetch_place(own);
-  }
+  };
+  ask_for(slot);
+  ask_for(guess.partner);
   if (is_stale(guess)) return predict(slot, /*changed=*/false);
   const std::optional<Contact> contact = contact_of(slot, guess.partner);
   const auto event = contact ? event_of(*contact, guess.partner) : std::nullopt;
   if (!event || !(rough_seconds(event->at, guess.at) < static_cast<double>(guess.clear_for))) {
     return predict_closely(slot, /*changed=*/false);
   }
-  for (const Slot own : {slot, guess.partner}) neighbours_.prefetch_list(own);
+  neighbours_.prefetch_list(slot);
+  neighbours_.prefetch_list(guess.partner);
   due_ = *contact;
-  has_due_ = true;
+  due_slot_ = slot;
   queue_.set(slot, *event, id_lookup());
 }
 
