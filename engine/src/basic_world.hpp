@@ -228,8 +228,7 @@ class BasicWorld final : public WorldCore {
   Vector2 normal_to_image(Slot disk, Slot wall, const Image& image) const;
   void renew_cage(Slot slot, Role role, double margin);
   double next_margin(Slot slot) const;
-  Neighbours::Anchor anchor_of(Slot slot) const;
-  double margin_of(Slot slot) const;
+  Neighbours::Leeway leeway_of(Slot slot) const;
   bool has_no_place(Slot slot) const;
   Vector2 shown(const DoubleWord2<S>& position) const;
   DoubleWord2<S> period_words() const;

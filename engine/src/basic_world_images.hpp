@@ -181,19 +181,11 @@ double BasicWorld<S, Laws>::next_margin(Slot slot) const {
 }
 
 template <class S, class Laws>
-Neighbours::Anchor BasicWorld<S, Laws>::anchor_of(Slot slot) const {
+Neighbours::Leeway BasicWorld<S, Laws>::leeway_of(Slot slot) const {
   if constexpr (!Laws::kPlain) {
-    if (is_periodic()) return space_.cage(slot).anchor;
+    if (is_periodic()) return {space_.cage(slot).anchor, space_.cage(slot).margin};
   }
-  return neighbours_.anchor(slot);
-}
-
-template <class S, class Laws>
-double BasicWorld<S, Laws>::margin_of(Slot slot) const {
-  if constexpr (!Laws::kPlain) {
-    if (is_periodic()) return space_.cage(slot).margin;
-  }
-  return neighbours_.margin(slot);
+  return neighbours_.leeway(slot);
 }
 
 /// Calls visit(box) for each copy of a box in which stored boxes that meet one of its images lie.

@@ -49,8 +49,7 @@ bool BasicWorld<S, Laws>::is_far_from_line(Slot wall, const Aabb& box) const {
   const DoubleWord2<S>& edge = shape(wall).edge;
   const auto ex = static_cast<double>(edge.x.hi);
   const auto ey = static_cast<double>(edge.y.hi);
-  const auto anchor = neighbours_.anchor(wall);
-  const double margin = neighbours_.margin(wall);
+  const auto [anchor, margin] = neighbours_.leeway(wall);
   const double x = 0.5 * box.low_x + 0.5 * box.high_x - (anchor.x + anchor.x_low);
   const double y = 0.5 * box.low_y + 0.5 * box.high_y - (anchor.y + anchor.y_low);
   const double half_x = 0.5 * (box.high_x - box.low_x) + margin;
@@ -251,8 +250,9 @@ Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const
   const double growth = growth_of(slot);
   if (here.vx == 0 && here.vy == 0 && pull == 0 && growth == 0) return event;
   constexpr double kEarly = 1 - kScreenSlack<S>;
-  const Neighbours::Anchor anchor = anchor_of(slot);
-  double margin = margin_of(slot) * kEarly;
+  const Neighbours::Leeway leeway = leeway_of(slot);
+  const Neighbours::Anchor& anchor = leeway.anchor;
+  double margin = leeway.margin * kEarly;
   if constexpr (Laws::kGrows) margin -= radius_now(slot) - at(slot).boxed_radius;
   const double moved_x = (here.x - anchor.x) + (here.x_low - anchor.x_low);
   const double moved_y = (here.y - anchor.y) + (here.y_low - anchor.y_low);
@@ -519,8 +519,9 @@ bool BasicWorld<S, Laws>::foresee_newcomers([[maybe_unused]] Slot slot,
 template <class S, class Laws>
 double BasicWorld<S, Laws>::time_to_renewal(Slot slot, const Sight& own, double now) const {
   constexpr double kEarly = 1 - 1e-6;
-  const auto anchor = neighbours_.anchor(slot);
-  const double margin = neighbours_.margin(slot) * kEarly;
+  const Neighbours::Leeway leeway = neighbours_.leeway(slot);
+  const Neighbours::Anchor& anchor = leeway.anchor;
+  const double margin = leeway.margin * kEarly;
   if (!(own.off < 1e-6 * margin)) {  // far from the origin
     const Event<S> event = renewal_event(slot, glance_of(slot));
     return event.at == Time<S>::never() ? std::numeric_limits<double>::infinity()

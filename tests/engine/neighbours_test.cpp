@@ -78,9 +78,9 @@ void expect_everybody_known(bool in_cells) {
         return interact(slot, other);
       });
       if (random.one_in(3)) neighbours.note_event(slot);
-      const Neighbours::Anchor anchor = neighbours.anchor(slot);
-      EXPECT_LE(std::abs(anchor.x + anchor.x_low - body.here.x), neighbours.margin(slot) + 1e-13);
-      EXPECT_LE(std::abs(anchor.y + anchor.y_low - body.here.y), neighbours.margin(slot) + 1e-13);
+      const auto [anchor, leeway] = neighbours.leeway(slot);
+      EXPECT_LE(std::abs(anchor.x + anchor.x_low - body.here.x), leeway + 1e-13);
+      EXPECT_LE(std::abs(anchor.y + anchor.y_low - body.here.y), leeway + 1e-13);
     }
     ASSERT_NO_FATAL_FAILURE(expect_neighbours(neighbours, slots));
   }
@@ -118,7 +118,7 @@ TEST(Neighbours, NewcomersAreThoseThatWereNotKnown) {
     const auto slot = static_cast<Slot>(random.below(60));
     const auto before = neighbours.of(slot);
     const std::vector<Slot> known(before.begin(), before.end());
-    const Neighbours::Anchor at = neighbours.anchor(slot);
+    const Neighbours::Anchor at = neighbours.leeway(slot).anchor;
     renew(slot, at.x + random.uniform(-1.2, 1.2), at.y + random.uniform(-1.2, 1.2));
     if (!neighbours.has_only_crossed()) continue;
     ++crossings;

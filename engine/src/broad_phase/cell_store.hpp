@@ -9,6 +9,8 @@
 // Invariants: 1. a block in the table holds at least one item; 2. where a cell's second place is
 // empty nothing hangs behind it, and where the first is empty the second is.
 
+#include "prefetch.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -54,6 +56,19 @@ class CellStore {
     return {block.x * kBlockSide + in_block % kBlockSide,
             block.y * kBlockSide + in_block / kBlockSide,
             block.level};
+  }
+
+  /// Asks for what collect_around() will read of an item's block, and then of the cells.
+  void prefetch_block(std::int32_t item) const {
+    prefetch(&heads_[index(links_[index(item)].cell) / kBlockCells]);
+  }
+  void prefetch_around(std::int32_t item) const {
+    const std::size_t cell = index(links_[index(item)].cell);
+    const std::size_t row = cell % kBlockCells / kBlockSide * kBlockSide;
+    const std::int32_t* const first = &blocks_[cell / kBlockCells].items[2 * row];
+    prefetch(first - 2 * kBlockSide);
+    prefetch(first);
+    prefetch(first + 2 * kBlockSide);
   }
 
   /// Writes all items but one that are in cells near it; returns where it has stopped. REQUIRES: in
@@ -131,7 +146,7 @@ class CellStore {
     Cell key;  ///< the block's numbers along the axes, and its level
     std::int32_t block = kNone;
   };
-  struct Head {
+  struct alignas(64) Head {
     Cell key;                   ///< likewise
     std::uint64_t crowded = 0;  ///< a bit for each cell with items behind its second
     std::int32_t items = 0;

@@ -45,10 +45,7 @@ std::optional<DiskCells::Cage> DiskCells::cage_at(const Level& level, double x, 
   const double number_y = y * level.inverse;
   if (!(std::abs(number_x) < kNumberMax && std::abs(number_y) < kNumberMax)) return std::nullopt;
   const Cell cell{CellStore::floor_of(number_x), CellStore::floor_of(number_y), level.id};
-  return Cage{(static_cast<double>(cell.x) + 0.5) * level.side,
-              (static_cast<double>(cell.y) + 0.5) * level.side,
-              (0.5 + kBeyond) * level.side,
-              cell};
+  return cage_in(level, cell);
 }
 
 void DiskCells::leave(std::int32_t disk) {

@@ -44,6 +44,19 @@ class DiskCells {
   /// REQUIRES: contained.
   Cell cell_of(std::int32_t disk) const { return store_.cell_of(disk); }
 
+  /// REQUIRES: contained.
+  Cage cage_of(std::int32_t disk) const {
+    const Cell cell = store_.cell_of(disk);
+    for (const Level& level : levels_) {
+      if (level.id == cell.level) return cage_in(level, cell);
+    }
+    return {};
+  }
+  /// Asks for what collect_around() will read of this one, and of those around it. REQUIRES:
+  /// contained.
+  void prefetch_block(std::int32_t disk) const { store_.prefetch_block(disk); }
+  void prefetch_around(std::int32_t disk) const { store_.prefetch_around(disk); }
+
   /// Puts a disk in whose centre is at (x, y), off by less than 1e-10 of `radius`. None where cells
   /// do not suit it: too far out for their numbers, or much larger than most. `slowest`: m, the
   /// least that a cage should leave it to go. REQUIRES: not in.
@@ -121,6 +134,12 @@ class DiskCells {
   }
   /// Where a centre at (x, y) stands on a level; none beyond the range of its cells' numbers.
   static std::optional<Cage> cage_at(const Level& level, double x, double y);
+  static Cage cage_in(const Level& level, const Cell& cell) {
+    return {(static_cast<double>(cell.x) + 0.5) * level.side,
+            (static_cast<double>(cell.y) + 0.5) * level.side,
+            (0.5 + kBeyond) * level.side,
+            cell};
+  }
   Level& level_of(std::int32_t id);
   Level* level_for(double radius);
   Level& make_level(double radius_max, double side);

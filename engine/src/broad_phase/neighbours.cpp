@@ -31,7 +31,7 @@ double Neighbours::next_margin(Slot slot) const {
   constexpr double kFew = 32;
   constexpr double kFoundWork = 2;
   const Place& place = grid_.place(slot);
-  const double beyond = std::max(0.0, static_cast<double>(place.list.size) - kFew);
+  const double beyond = std::max(0.0, static_cast<double>(lists_[index(slot)].size) - kFew);
   const double search = kSearchWork + kFoundWork * beyond;
   constexpr double kWorkMax = 0xffff;  // that is kept
   if (place.work < std::min(0.5 * search, kWorkMax)) return place.margin * kGrow;
@@ -113,23 +113,23 @@ void Neighbours::replace_neighbours(Slot slot) {
   for (const Slot other : found_) {
     const bool was_there = std::exchange(tags_[index(other)].is_marked, false);
     if (!keeps_list(other) || (was_there && keeps)) continue;
-    PooledList& list = grid_.place(other).list;
+    PooledList& list = lists_[index(other)];
     // Of a body without a list, before_ may hold more than its neighbours.
     if (was_there) pool_.erase(list, slot);
     pool_.push(list, slot);
   }
   for (const Slot old : before_) {
     if (!std::exchange(tags_[index(old)].is_marked, false)) continue;
-    if (keeps_list(old)) pool_.erase(grid_.place(old).list, slot);
+    if (keeps_list(old)) pool_.erase(lists_[index(old)], slot);
   }
-  if (keeps) pool_.assign(grid_.place(slot).list, found_);
+  if (keeps) pool_.assign(lists_[index(slot)], found_);
 }
 
 // Takes a body whose box is out from all lists.
 void Neighbours::forget(Slot slot) {
   found_.clear();
   replace_neighbours(slot);
-  pool_.release(grid_.place(slot).list);
+  pool_.release(lists_[index(slot)]);
 }
 
 }  // namespace stoss::engine

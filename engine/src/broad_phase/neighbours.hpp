@@ -107,14 +107,36 @@ class Neighbours {
     return ended(newcomers_, slot, cells_.collect_new_around(slot, crossed_from_, to));
   }
   /// Asks for what of() and anchor() will read.
-  void prefetch_place(Slot slot) const { prefetch(&grid_.place(slot)); }
+  void prefetch_place(Slot slot) const {
+    prefetch(&lists_[index(slot)]);
+    if (cells_.contains(slot)) {
+      cells_.prefetch_block(slot);
+    } else {
+      prefetch(&grid_.place(slot));
+    }
+  }
   /// Asks for the list itself; its place should have come.
-  void prefetch_list(Slot slot) const { prefetch(list_of(slot).data()); }
-  double margin(Slot slot) const { return grid_.place(slot).margin; }
-  /// Where the body was when its box was made; in a periodic world, its image in the box.
-  Anchor anchor(Slot slot) const {
+  void prefetch_list(Slot slot) const {
+    if (cells_.contains(slot)) {
+      cells_.prefetch_around(slot);
+    } else {
+      prefetch(list_of(slot).data());
+    }
+  }
+  /// A square of half side `margin`, m, that the body's place may leave before its box is renewed.
+  struct Leeway {
+    Anchor anchor;
+    double margin = 0;
+  };
+  /// Around where the body was when its box was made (in a periodic world, its image in the box),
+  /// or around the middle of its cell.
+  Leeway leeway(Slot slot) const {
+    if (cells_.contains(slot)) {
+      const DiskCells::Cage cage = cells_.cage_of(slot);
+      return {{cage.x, cage.y, 0, 0}, cage.half};
+    }
     const Place& place = grid_.place(slot);
-    return {place.x, place.y, place.x_low(), place.y_low()};
+    return {{place.x, place.y, place.x_low(), place.y_low()}, place.margin};
   }
   Aabb box_of(Slot slot) const {
     return tags_[index(slot)].role == Role::Wall ? tree_.box_of(slot) : grid_.place(slot).box();
@@ -132,7 +154,10 @@ class Neighbours {
              const Interacts& interacts,
              const Copies& copies = {}) {
     grid_.reserve(slot);
-    if (index(slot) >= tags_.size()) tags_.resize(index(slot) + 1);
+    if (index(slot) >= tags_.size()) {
+      tags_.resize(index(slot) + 1);
+      lists_.resize(index(slot) + 1);
+    }
     const std::optional<DiskCells::Cell> from = cell_of(slot);
     const bool was_known = remember_neighbours(slot, copies);
     if (!from || !cross(slot, tight, interacts, copies)) {
@@ -160,7 +185,7 @@ class Neighbours {
   void note_work(Slot slot) {
     if (cells_.contains(slot)) return;
     Place& place = grid_.place(slot);
-    const std::uint32_t work = place.work + place.list.size;
+    const std::uint32_t work = place.work + lists_[index(slot)].size;
     place.work = static_cast<std::uint16_t>(std::min(work, std::uint32_t{0xffff}));
   }
 
@@ -197,7 +222,7 @@ class Neighbours {
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   }
 
-  std::span<const Slot> list_of(Slot slot) const { return pool_.items(grid_.place(slot).list); }
+  std::span<const Slot> list_of(Slot slot) const { return pool_.items(lists_[index(slot)]); }
   std::optional<DiskCells::Cell> cell_of(Slot slot) const {
     if (!cells_.contains(slot)) return std::nullopt;
     return cells_.cell_of(slot);
@@ -321,7 +346,8 @@ class Neighbours {
   AabbTree tree_;
   std::vector<Tag> tags_;
   ListPool pool_;
-  std::vector<Slot> before_;  // whom a body without a list had as neighbours, and a few more
+  std::vector<PooledList> lists_;  // of each body
+  std::vector<Slot> before_;       // whom a body without a list had as neighbours, and a few more
   std::vector<Slot> found_;
   bool has_only_crossed_ = false;  // the body that was renewed last
   DiskCells::Cell crossed_from_;
