@@ -260,6 +260,7 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
 // Boxes, vertices and events for bodies that have just been read.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::settle() {
+  sights_.epoch.begin = now_;
   for (const Slot slot : ordered_slots()) renew_law(slot);
   for (const Slot slot : ordered_slots()) renew_box(slot, first_margin(slot));
   for (const Slot slot : ordered_slots()) {

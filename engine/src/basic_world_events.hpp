@@ -74,7 +74,7 @@ void BasicWorld<S, Laws>::prefetch_event(Slot slot) const {
   for (const Slot own : {slot, partner < 0 ? slot : partner}) {
     prefetch_all(at(own));
     neighbours_.prefetch_place(own);
-    if constexpr (kHasSights<Laws>) prefetch(&sights_.of_slot[index(own)]);
+    prefetch(&sights_.of_slot[index(own)]);
   }
 }
 
@@ -152,11 +152,9 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   check(event.at >= now_, "a contact was scheduled in the past");
   if (has_stalled(event.at) || is_squeezed(due_)) return false;
   count_towards_stall();
-  if constexpr (kHasSights<Laws>) {
-    if (!all_pairs()) {
-      for (const Slot own : {due_.a, due_.b}) {
-        if (at(own).is_dynamic()) prefetch_sights(own);
-      }
+  if (has_sights()) {
+    for (const Slot own : {due_.a, due_.b}) {
+      if (at(own).is_dynamic()) prefetch_sights(own);
     }
   }
   resolve(due_, event.at, sink);

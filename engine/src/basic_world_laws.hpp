@@ -195,22 +195,26 @@ S BasicWorld<S, Laws>::valid_for(Slot a, Slot b, const Time<S>& reference) const
 /// Sets what follows from a velocity that has just been written: the law's part, and the sight.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_law(Slot slot) {
+  if constexpr (Laws::kCurved) renew_acceleration(slot);
   renew_sight(slot);
-  if constexpr (Laws::kCurved) {
-    Body<S, Laws>& body = at(slot);
-    body.moves_for = {std::numeric_limits<S>::infinity(), S(0)};
-    body.acceleration = wind_on(slot);
-    if (!body.is_dynamic()) return;
-    if (body.support != kNoId) {
-      renew_rest(slot);
-      return;
-    }
-    body.acceleration = laws_.gravity;
-    if (!(laws_.deceleration > S(0))) return;
-    const Slowing<S> slow = slowing<S>(body.motion.velocity, laws_.deceleration);
-    body.acceleration = slow.acceleration;
-    body.moves_for = slow.moves_for;
+}
+
+/// What pulls at the body, and for how long.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::renew_acceleration(Slot slot) {
+  Body<S, Laws>& body = at(slot);
+  body.moves_for = {std::numeric_limits<S>::infinity(), S(0)};
+  body.acceleration = wind_on(slot);
+  if (!body.is_dynamic()) return;
+  if (body.support != kNoId) {
+    renew_rest(slot);
+    return;
   }
+  body.acceleration = laws_.gravity;
+  if (!(laws_.deceleration > S(0))) return;
+  const Slowing<S> slow = slowing<S>(body.motion.velocity, laws_.deceleration);
+  body.acceleration = slow.acceleration;
+  body.moves_for = slow.moves_for;
 }
 
 /// What befalls a body by itself, first of all.

@@ -252,10 +252,11 @@ class Neighbours {
   template <class Interacts, class Copies>
   bool cross(Slot slot, const Aabb& tight, const Interacts& interacts, const Copies& copies) {
     if (tags_[index(slot)].flown >= kFar) return false;
-    ++tags_[index(slot)].flown;
     const Extent extent(tight);
+    const DiskCells::Cell from = cells_.cell_of(slot);
     const auto cage = cells_.move(slot, extent.x, extent.y);
     if (!cage) return false;
+    if (cage->cell != from) ++tags_[index(slot)].flown;
     find(slot, box_in(*cage, slot, extent), interacts, copies);
     return true;
   }
