@@ -233,6 +233,8 @@ class BasicWorld final : public WorldCore {
   void begin_epoch();
   double seconds_of(double run, const SightClock& clock) const;
   Common common_to_sights(const SightClock& clock) const;
+  SoonestTwo soonest_of_list(Slot slot, double smallest_held, const SightClock& clock) const;
+  double soonest_seen(Slot a, Slot b, const SightClock& clock) const;
   CommonPull common_pull() const;
 
   // basic_world_images.hpp
@@ -248,6 +250,7 @@ class BasicWorld final : public WorldCore {
   Vector2 normal_to_image(Slot disk, Slot wall, const Image& image) const;
   void renew_cage(Slot slot, Role role, double margin);
   double next_margin(Slot slot) const;
+  bool has_small_cage(Slot slot) const;
   Neighbours::Anchor anchor_of(Slot slot) const;
   double margin_of(Slot slot) const;
   bool has_no_place(Slot slot) const;

@@ -23,7 +23,7 @@ bool BasicWorld<S, Laws>::has_sights() const {
   if constexpr (Laws::kCurved) {
     if (laws_.deceleration > S(0)) return false;
   }
-  return !all_pairs() && !is_periodic();
+  return !all_pairs();
 }
 
 // By sights: of what the body has before it, the soonest becomes its event as a guess, and a kernel
@@ -61,18 +61,12 @@ void BasicWorld<S, Laws>::look_at_listed(
   const auto list = neighbours_.of(slot);
   double smallest_held = own.size * (1.0 / kHolderRatioMax);
   bool is_alone = false;  // in how it moves
-  if constexpr (Laws::kCurved) is_alone = !is_like(own);
+  if constexpr (!Laws::kPlain) is_alone = !is_like(own);
   if (is_alone) {
     smallest_held = std::numeric_limits<double>::infinity();
     ahead.has_others = true;
   } else {
-    static_cast<SoonestTwo&>(ahead) = soonest_contacts(slot,
-                                                       list,
-                                                       sights_.of_slot,
-                                                       smallest_held,
-                                                       clock.now,
-                                                       kScreenSlack<S>,
-                                                       common_to_sights(clock));
+    static_cast<SoonestTwo&>(ahead) = soonest_of_list(slot, smallest_held, clock);
     if constexpr (Laws::kCurved) {
       ahead.first = seconds_of(ahead.first, clock);
       ahead.second = seconds_of(ahead.second, clock);
@@ -103,12 +97,7 @@ void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
   const bool is_held = holds_prediction(slot, other);
   if (!is_held && !changed) return;
   if (see_each_other(slot, other)) {
-    const double soonest = seconds_of(soonest_contact(sights_.of_slot[index(slot)],
-                                                      sights_.of_slot[index(other)],
-                                                      clock.now,
-                                                      kScreenSlack<S>,
-                                                      common_to_sights(clock)),
-                                      clock);
+    const double soonest = seconds_of(soonest_seen(slot, other, clock), clock);
     return is_held ? ahead.note(other, soonest) : offer(other, slot, soonest);
   }
   if (!is_held) return offer(other, slot, 0);
@@ -126,14 +115,50 @@ void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
   }
 }
 
-/// Two disks whose sights say when they meet: where motions are curved, two that are like the rest.
+/// Two disks whose sights say when they meet: where motions are curved or go around a period, two
+/// that are like the rest.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::see_each_other(Slot a, Slot b) const {
-  if constexpr (Laws::kCurved) {
+  if (Laws::kCurved || is_periodic()) {
     return is_like(sights_.of_slot[index(a)]) && is_like(sights_.of_slot[index(b)]);
-  } else {
-    return at(a).is_disk() && at(b).is_disk();
   }
+  return at(a).is_disk() && at(b).is_disk();
+}
+
+template <class S, class Laws>
+SoonestTwo BasicWorld<S, Laws>::soonest_of_list(Slot slot,
+                                                double smallest_held,
+                                                const SightClock& clock) const {
+  const auto soonest = [&](const auto& common) {
+    return soonest_contacts(slot,
+                            neighbours_.of(slot),
+                            sights_.of_slot,
+                            smallest_held,
+                            clock.now,
+                            kScreenSlack<S>,
+                            common);
+  };
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) {
+      return soonest(Repeating<Common>{common_to_sights(clock), space_.length_x, space_.length_y});
+    }
+  }
+  return soonest(common_to_sights(clock));
+}
+
+/// By the clock of sights from now on. REQUIRES: they see each other.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::soonest_seen(Slot a, Slot b, const SightClock& clock) const {
+  const auto soonest = [&](const auto& common) {
+    return soonest_contact(
+        sights_.of_slot[index(a)], sights_.of_slot[index(b)], clock.now, kScreenSlack<S>, common);
+  };
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) {
+      return soonest(Repeating<Common>{common_to_sights(clock), space_.length_x, space_.length_y});
+    }
+  }
+  return soonest(common_to_sights(clock));
 }
 
 // Makes the first of what lies ahead the body's event.
@@ -168,7 +193,7 @@ double BasicWorld<S, Laws>::time_to_renewal(Slot slot,
                                             const Sight& own,
                                             const SightClock& clock) const {
   constexpr double kEarly = 1 - 1e-6;
-  if constexpr (Laws::kCurved) return time_in_box(slot, glance_of(slot)) * kEarly;
+  if (Laws::kCurved || is_periodic()) return time_in_box(slot, glance_of(slot)) * kEarly;
   const auto anchor = neighbours_.anchor(slot);
   double margin = neighbours_.margin(slot) * kEarly;
   if (!(own.off < 1e-6 * margin)) {  // far from the origin
@@ -322,6 +347,7 @@ void BasicWorld<S, Laws>::renew_sight(Slot slot) {
   } else {
     sight = sight_of(body.motion, body.radius, body.type, sights_.epoch);
   }
+  if (!has_small_cage(slot)) sight.size = -1;
 }
 
 /// A dynamic disk that rests on nothing: gravity and drag alone move it.
