@@ -242,6 +242,11 @@ class BasicWorld final : public WorldCore {
   void begin_epoch();
   double seconds_of(double run, const SightClock& clock) const;
   Common common_to_sights(const SightClock& clock) const;
+  SoonestTwo soonest_of(Slot slot,
+                        std::span<const Slot> list,
+                        double smallest,
+                        const SightClock& clock) const;
+  double soonest_seen(Slot a, Slot b, const SightClock& clock) const;
   CommonPull common_pull() const;
 
   // basic_world_images.hpp
@@ -258,6 +263,7 @@ class BasicWorld final : public WorldCore {
   void renew_cage(Slot slot, Role role, double margin);
   double next_margin(Slot slot) const;
   Neighbours::Leeway leeway_of(Slot slot) const;
+  bool has_small_cage(Slot slot) const;
   bool has_no_place(Slot slot) const;
   Vector2 shown(const DoubleWord2<S>& position) const;
   DoubleWord2<S> period_words() const;

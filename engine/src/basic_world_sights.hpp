@@ -23,7 +23,7 @@ bool BasicWorld<S, Laws>::has_sights() const {
   if constexpr (Laws::kCurved) {
     if (laws_.deceleration > S(0)) return false;
   }
-  return !all_pairs() && !is_periodic();
+  return !all_pairs();
 }
 
 // By sights: of what the body has before it, the soonest becomes its event as a guess, and a kernel
@@ -75,7 +75,7 @@ void BasicWorld<S, Laws>::look_at_listed(
   const auto list = neighbours_.of(slot);
   double smallest_held = own.size * (1.0 / kHolderRatioMax);
   bool is_alone = false;  // in how it moves
-  if constexpr (Laws::kCurved) is_alone = !is_like(own);
+  if constexpr (!Laws::kPlain) is_alone = !is_like(own);
   if (is_alone) {
     smallest_held = std::numeric_limits<double>::infinity();
     ahead.has_others = true;
@@ -96,8 +96,7 @@ void BasicWorld<S, Laws>::look_at_all(Slot slot,
                                       double smallest,
                                       const SightClock& clock,
                                       Foresight& ahead) const {
-  static_cast<SoonestTwo&>(ahead) = soonest_contacts(
-      slot, list, sights_.of_slot, smallest, clock.now, kScreenSlack<S>, common_to_sights(clock));
+  static_cast<SoonestTwo&>(ahead) = soonest_of(slot, list, smallest, clock);
   if constexpr (Laws::kCurved) {
     ahead.first = seconds_of(ahead.first, clock);
     ahead.second = seconds_of(ahead.second, clock);
@@ -121,10 +120,7 @@ void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
                                          Foresight& ahead) {
   const Sight& own = sights_.of_slot[index(slot)];
   const Sight& theirs = sights_.of_slot[index(other)];
-  const auto soonest = [&] {
-    return seconds_of(
-        soonest_contact(own, theirs, clock.now, kScreenSlack<S>, common_to_sights(clock)), clock);
-  };
+  const auto soonest = [&] { return seconds_of(soonest_seen(slot, other, clock), clock); };
   if (is_like(own) && is_like(theirs)) {  // the other is much smaller
     if (changed) offer(other, slot, soonest());
     return;
@@ -149,14 +145,46 @@ void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
   }
 }
 
-/// Two disks whose sights say when they meet: where motions are curved, two that are like the rest.
+/// Two disks whose sights say when they meet: where motions are curved or go around a period, two
+/// that are like the rest.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::see_each_other(Slot a, Slot b) const {
-  if constexpr (Laws::kCurved) {
+  if (Laws::kCurved || is_periodic()) {
     return is_like(sights_.of_slot[index(a)]) && is_like(sights_.of_slot[index(b)]);
-  } else {
-    return at(a).is_disk() && at(b).is_disk();
   }
+  return at(a).is_disk() && at(b).is_disk();
+}
+
+template <class S, class Laws>
+SoonestTwo BasicWorld<S, Laws>::soonest_of(Slot slot,
+                                           std::span<const Slot> list,
+                                           double smallest,
+                                           const SightClock& clock) const {
+  const auto soonest = [&](const auto& common) {
+    return soonest_contacts(
+        slot, list, sights_.of_slot, smallest, clock.now, kScreenSlack<S>, common);
+  };
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) {
+      return soonest(Repeating<Common>{common_to_sights(clock), space_.length_x, space_.length_y});
+    }
+  }
+  return soonest(common_to_sights(clock));
+}
+
+/// By the clock of sights from now on. REQUIRES: they see each other.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::soonest_seen(Slot a, Slot b, const SightClock& clock) const {
+  const auto soonest = [&](const auto& common) {
+    return soonest_contact(
+        sights_.of_slot[index(a)], sights_.of_slot[index(b)], clock.now, kScreenSlack<S>, common);
+  };
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) {
+      return soonest(Repeating<Common>{common_to_sights(clock), space_.length_x, space_.length_y});
+    }
+  }
+  return soonest(common_to_sights(clock));
 }
 
 /// An event with the partner of what lies ahead, and nothing else. A guess that stood before may be
@@ -218,9 +246,9 @@ double BasicWorld<S, Laws>::time_to_renewal(Slot slot,
                                             const Sight& own,
                                             const SightClock& clock) const {
   constexpr double kEarly = 1 - 1e-6;
-  if constexpr (Laws::kCurved) {
+  if (Laws::kCurved || is_periodic()) {
     const double within = time_in_box(slot, glance_of(slot)) * kEarly;
-    return is_like(own) ? std::min(within, clock.holds_for) : within;
+    return Laws::kCurved && is_like(own) ? std::min(within, clock.holds_for) : within;
   }
   const Neighbours::Leeway leeway = neighbours_.leeway(slot);
   const Neighbours::Anchor& anchor = leeway.anchor;
@@ -383,6 +411,7 @@ void BasicWorld<S, Laws>::renew_sight(Slot slot) {
   } else {
     sight = sight_of(body.motion, body.radius, body.type, sights_.epoch);
   }
+  if (!has_small_cage(slot)) sight.size = -1;
 }
 
 /// A dynamic disk that rests on nothing: gravity and drag alone move it.

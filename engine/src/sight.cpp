@@ -88,5 +88,19 @@ template SoonestTwo soonest_contacts(
     Slot, std::span<const Slot>, const std::vector<Sight>&, double, double, double, const Steady&);
 template SoonestTwo soonest_contacts(
     Slot, std::span<const Slot>, const std::vector<Sight>&, double, double, double, const Growing&);
+template SoonestTwo soonest_contacts(Slot,
+                                     std::span<const Slot>,
+                                     const std::vector<Sight>&,
+                                     double,
+                                     double,
+                                     double,
+                                     const Repeating<Steady>&);
+template SoonestTwo soonest_contacts(Slot,
+                                     std::span<const Slot>,
+                                     const std::vector<Sight>&,
+                                     double,
+                                     double,
+                                     double,
+                                     const Repeating<Growing>&);
 
 }  // namespace stoss::engine

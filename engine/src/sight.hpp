@@ -48,13 +48,33 @@ struct alignas(64) Sight {
 /// What all bodies have in common besides (1): nothing.
 struct Steady {
   static constexpr bool kGrows = false;
+  static constexpr bool kRepeats = false;
 };
 
 /// The reach of every two disks grows.
 struct Growing {
   static constexpr bool kGrows = true;
+  static constexpr bool kRepeats = false;
   double gained = 0;  ///< m, since the epoch's beginning
   double rate = 0;    ///< m/s
+};
+
+/// And the world repeats itself: of two bodies the nearest images alone can meet.
+template <class Common>
+struct Repeating : Common {
+  static constexpr bool kRepeats = true;
+  /// m; 0 along an open axis
+  double length_x = 0;
+  double length_y = 0;
+
+  /// Of a difference of coordinates that of the nearest images. REQUIRES: below 2^50 periods.
+  template <class V>
+  [[gnu::always_inline]] static V nearest(const V& p, double length) {
+    constexpr double kToWhole = 0x1.8p52;  // numbers beside it have no fraction
+    const double periods = length > 0 ? 1 / length : 0;
+    const V whole = (p * periods + kToWhole) - kToWhole;
+    return p - whole * length;
+  }
 };
 
 /// The instant that sights count from, and how long they may.
@@ -199,8 +219,12 @@ template <class V, class Common>
   using lanes::magnitude;
   const V vx = b.vx - a.vx;
   const V vy = b.vy - a.vy;
-  const V px = (b.x + b.vx * (now - b.since)) - a.x;
-  const V py = (b.y + b.vy * (now - b.since)) - a.y;
+  V px = (b.x + b.vx * (now - b.since)) - a.x;
+  V py = (b.y + b.vy * (now - b.since)) - a.y;
+  if constexpr (Common::kRepeats) {
+    px = common.nearest(px, common.length_x);
+    py = common.nearest(py, common.length_y);
+  }
   V reach = a.radius + b.radius;
   if constexpr (Common::kGrows) reach = reach + common.gained;
   const V off = (a.off + b.off) + slack * (magnitude(px) + magnitude(py) + reach);
