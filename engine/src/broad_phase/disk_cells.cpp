@@ -12,6 +12,13 @@ namespace {
 /// factor of two it hardly matters.
 constexpr double kCrossing = 14;
 
+/// About the cube root of a ratio of works; from 1/2 to 4.
+double balanced_by(double ratio) {
+  double longer = 0.5;
+  while (longer * longer * longer < ratio && longer < 4) longer *= 1.05;
+  return longer;
+}
+
 }  // namespace
 
 std::optional<DiskCells::Cage> DiskCells::enter(
@@ -105,9 +112,8 @@ void DiskCells::look_after(Level& level) {
   for (const Level& other : levels_) {  // most have not come over yet: too soon to tell
     if (other.is_retired && other.items > level.items / 8) return;
   }
-  const double longer = std::cbrt(kCrossing * crossings / (2 * (looks + 1)));
-  const double side =
-      std::max(level.side * std::clamp(longer, 0.5, 4.0), least_side(level.radius_max));
+  const double side = std::max(level.side * balanced_by(kCrossing * crossings / (2 * (looks + 1))),
+                               least_side(level.radius_max));
   constexpr double kEnough = 1.25;
   if (side < kEnough * level.side && level.side < kEnough * side) return;
   level.is_retired = true;
