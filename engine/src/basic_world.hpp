@@ -29,6 +29,7 @@
 #include "periodic.hpp"
 #include "screen.hpp"
 #include "sight.hpp"
+#include "sight_frames.hpp"
 #include "slot_table.hpp"
 #include "world_core.hpp"
 #include "zone_passages.hpp"
@@ -142,10 +143,19 @@ class BasicWorld final : public WorldCore {
   };
 
   struct Nothing {};
+  using Common = std::conditional_t<Laws::kGrows, Growing, Steady>;
+  /// The present as sights count it.
+  struct SightClock {
+    double now = 0;   ///< s after the epoch; under drag, as the clock runs that slows down with all
+    double left = 1;  ///< how fast it still runs
+    /// s from now on; what sights show of disks that are alike does not count any later
+    double holds_for = std::numeric_limits<double>::infinity();
+  };
   /// What a body has before it: bounds of the contacts that it holds with disks, in seconds from
   /// now, and its first event with a wall.
   struct Foresight : SoonestTwo {
     std::optional<Event<S>> exact;
+    const Event<S>* standing = nullptr;  ///< the guess that stood before, if any
   };
 
   /// Names the offending element of a command in a refusal.
@@ -186,28 +196,58 @@ class BasicWorld final : public WorldCore {
   std::optional<Event<S>> event_with(Slot holder, Slot partner) const;
   std::optional<Event<S>> event_of(const Contact& contact, Slot partner) const;
   Event<S> renewal_event(Slot slot, const Glance& here) const;
+  double time_in_box(Slot slot, const Glance& here) const;
   double horizon_of(const Event<S>& event) const;
   bool may_meet(Slot slot, const Glance& here, Slot other, double horizon) const;
   bool may_meet_at(
       Slot slot, const Glance& here, Slot other, const Glance& there, double horizon) const;
   void predict(Slot slot, bool changed);
   void predict_closely(Slot slot, bool changed);
-  void foresee(Slot slot, bool changed);
-  void prefetch_sights(Slot slot) const;
-  void look_at_unlike(
-      Slot slot, Slot other, bool changed, double now, double renewal, Foresight& ahead);
-  void schedule(Slot slot, const Foresight& ahead, double renewal, double near);
-  double time_to_renewal(Slot slot, const Sight& own, double now) const;
-  void offer(Slot holder, Slot changed, double soonest);
-  void sharpen(Slot slot);
-  bool has_guess(Slot slot) const { return queue_.event_of(slot).kind == EventKind::Guess; }
-  void renew_sight(Slot slot);
-  double time_of_sights();
   void renew_box(Slot slot, double margin);
   Aabb tight_box(Slot slot) const;
   Aabb tight_box(Slot slot, const Glance& here) const;
   double smallest_margin(Slot slot) const;
   double first_margin(Slot slot) const;
+
+  // basic_world_sights.hpp
+  bool has_sights() const;
+  void foresee(Slot slot, bool changed);
+  bool foresee_newcomers(Slot slot, const Event<S>& crossing);
+  void look_at_all(Slot slot,
+                   std::span<const Slot> list,
+                   double smallest,
+                   const SightClock& clock,
+                   Foresight& ahead) const;
+  void look_at_listed(
+      Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead);
+  void prefetch_sights(Slot slot) const;
+  void look_at_unlike(Slot slot,
+                      Slot other,
+                      bool changed,
+                      const SightClock& clock,
+                      double renewal,
+                      Foresight& ahead);
+  bool see_each_other(Slot a, Slot b) const;
+  Event<S> guess_of(const Foresight& ahead) const;
+  Event<S> guess_after(double renewal, const Foresight& ahead) const;
+  void schedule(Slot slot, const Foresight& ahead, double renewal);
+  double time_to_renewal(Slot slot, const Sight& own, const SightClock& clock) const;
+  void offer(Slot holder, Slot changed, double soonest);
+  void sharpen(Slot slot);
+  bool has_guess(Slot slot) const { return queue_.event_of(slot).kind == EventKind::Guess; }
+  void renew_sight(Slot slot);
+  bool falls_freely(Slot slot) const;
+  Sight sight_of_falling(Slot slot) const;
+  SightClock read_sight_clock();
+  void begin_epoch();
+  double seconds_of(double run, const SightClock& clock) const;
+  Common common_to_sights(const SightClock& clock) const;
+  SoonestTwo soonest_of(Slot slot,
+                        std::span<const Slot> list,
+                        double smallest,
+                        const SightClock& clock) const;
+  double soonest_seen(Slot a, Slot b, const SightClock& clock) const;
+  CommonPull common_pull() const;
 
   // basic_world_images.hpp
   bool is_periodic() const;
@@ -222,8 +262,8 @@ class BasicWorld final : public WorldCore {
   Vector2 normal_to_image(Slot disk, Slot wall, const Image& image) const;
   void renew_cage(Slot slot, Role role, double margin);
   double next_margin(Slot slot) const;
-  Neighbours::Anchor anchor_of(Slot slot) const;
-  double margin_of(Slot slot) const;
+  Neighbours::Leeway leeway_of(Slot slot) const;
+  bool has_small_cage(Slot slot) const;
   bool has_no_place(Slot slot) const;
   Vector2 shown(const DoubleWord2<S>& position) const;
   DoubleWord2<S> period_words() const;
@@ -278,6 +318,7 @@ class BasicWorld final : public WorldCore {
   DoubleWord2<S> pull_towards(Slot support) const;
   S valid_for(Slot a, Slot b, const Time<S>& reference) const;
   void renew_law(Slot slot);
+  void renew_acceleration(Slot slot);
   std::optional<Event<S>> own_event(Slot slot) const;
   std::optional<Event<S>> law_change(Slot slot) const;
   void process_own_event(Slot slot, const Time<S>& instant);
@@ -459,26 +500,25 @@ class BasicWorld final : public WorldCore {
   std::size_t zones_in_use_ = 0;
   [[no_unique_address]] std::conditional_t<Laws::kPlain, NoZonePassages, ZonePassages<S>> passages_;
 
-  /// What a prediction looks at; of kHasSights worlds alone.
+  /// What a prediction looks at.
   struct Sights {
     std::vector<Sight> of_slot;
     Epoch<S> epoch;
     std::uint64_t uses = 0;  ///< in this epoch
   };
-  struct NoSights {};
-  [[no_unique_address]] std::conditional_t<kHasSights<Laws>, Sights, NoSights> sights_;
+  Sights sights_;
 
   Neighbours neighbours_;
   EventQueue<S> queue_;
   Time<S> crowded_instant_ = Time<S>::never();  ///< of the last collision
   std::uint64_t crowd_ = 0;                     ///< collisions at that instant since a command
   Contact due_{};                               ///< of the event that was sharpened last
-  bool has_due_ = false;                        ///< until another event is processed
+  Slot due_slot_ = -1;                          ///< whose that is, until an event is processed
 
   // The bodies' digests, brought up to date for those that changed when the hash is asked for.
   struct Digests {
     std::vector<std::uint64_t> of_slot;
-    std::vector<bool> is_stale;
+    std::vector<std::uint8_t> is_stale;  // not bits: noted twice a collision
     std::vector<Slot> stale;
     std::uint64_t sum = 0;
   };
@@ -495,7 +535,7 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
       broad_phase_(options.broad_phase),
       laws_(options.effects),
       space_(options.period) {
-  if constexpr (kHasSights<Laws>) sights_.epoch.begin = now_;
+  sights_.epoch.begin = now_;
 }
 
 }  // namespace stoss::engine
@@ -510,6 +550,7 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
 #include "basic_world_laws.hpp"
 #include "basic_world_predict.hpp"
 #include "basic_world_rest.hpp"
+#include "basic_world_sights.hpp"
 #include "basic_world_switch.hpp"
 #include "basic_world_thermostat.hpp"
 #include "basic_world_zones.hpp"

@@ -82,12 +82,12 @@ std::vector<std::byte> BasicWorld<S, Laws>::bytes_for(const Effects& kind) const
 
 template <class S, class Laws>
 void BasicWorld<S, Laws>::note_digest_stale(Slot slot) {
+  if (index(slot) < digests_.is_stale.size() && digests_.is_stale[index(slot)] != 0) return;
   if (index(slot) >= digests_.of_slot.size()) {
     digests_.of_slot.resize(index(slot) + 1, 0);
-    digests_.is_stale.resize(index(slot) + 1, false);
+    digests_.is_stale.resize(index(slot) + 1, 0);
   }
-  if (digests_.is_stale[index(slot)]) return;
-  digests_.is_stale[index(slot)] = true;
+  digests_.is_stale[index(slot)] = 1;
   digests_.stale.push_back(slot);
 }
 
@@ -112,7 +112,7 @@ std::uint64_t BasicWorld<S, Laws>::state_hash() const {
     const std::uint64_t now = at(slot).id != kNoId ? digest.digest() : 0;
     digests_.sum += now - digests_.of_slot[index(slot)];
     digests_.of_slot[index(slot)] = now;
-    digests_.is_stale[index(slot)] = false;
+    digests_.is_stale[index(slot)] = 0;
   }
   digests_.stale.clear();
   return header.digest() + digests_.sum;
@@ -260,6 +260,7 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
 // Boxes, vertices and events for bodies that have just been read.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::settle() {
+  sights_.epoch.begin = now_;
   for (const Slot slot : ordered_slots()) renew_law(slot);
   for (const Slot slot : ordered_slots()) renew_box(slot, first_margin(slot));
   for (const Slot slot : ordered_slots()) {

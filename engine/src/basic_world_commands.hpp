@@ -239,7 +239,7 @@ void BasicWorld<S, Laws>::make_room(std::size_t count) {
   const std::size_t all = bodies_.size() + count;
   bodies_.reserve(all);
   slots_.reserve(all, id_of_slot());
-  if constexpr (kHasSights<Laws>) sights_.of_slot.reserve(all);
+  sights_.of_slot.reserve(all);
   digests_.of_slot.reserve(all);
   digests_.is_stale.reserve(all);
   digests_.stale.reserve(all);
@@ -264,7 +264,7 @@ Slot BasicWorld<S, Laws>::take_slot(Id id, BodyType type) {
   body.motion.since = now_;
   slots_.insert(body.id, slot, id_of_slot());
   queue_.admit(slot);
-  if constexpr (kHasSights<Laws>) sights_.of_slot.resize(bodies_.size());
+  sights_.of_slot.resize(bodies_.size());
   note_digest_stale(slot);
   ordered_valid_ = false;
   return slot;

@@ -29,7 +29,7 @@ Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
                   .reason = "the instant is in the past: the world has moved on"};
   }
   AdvanceReport report;
-  has_due_ = false;
+  due_slot_ = -1;
   const std::uint64_t collisions_before = counters_.collisions;
   const Time<S> end = std::max(now_, from_instant<Time<S>>(until));
   for (Slot slot = next_slot(); slot >= 0 && queue_.event_of(slot).at <= end; slot = next_slot()) {
@@ -74,7 +74,7 @@ void BasicWorld<S, Laws>::prefetch_event(Slot slot) const {
   for (const Slot own : {slot, partner < 0 ? slot : partner}) {
     prefetch_all(at(own));
     neighbours_.prefetch_place(own);
-    if constexpr (kHasSights<Laws>) prefetch(&sights_.of_slot[index(own)]);
+    prefetch(&sights_.of_slot[index(own)]);
   }
 }
 
@@ -114,12 +114,12 @@ bool BasicWorld<S, Laws>::is_stale(const Event<S>& event) const {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   const Event<S> event = queue_.event_of(slot);
-  const bool has_due = std::exchange(has_due_, false);
+  const bool is_due = std::exchange(due_slot_, -1) == slot;
   if (event.kind == EventKind::NeighbourRenewal) {
     ++counters_.renewals;
     if (has_no_place(slot)) return false;
     renew_box(slot, next_margin(slot));
-    predict(slot, /*changed=*/true);
+    if (!foresee_newcomers(slot, event)) predict(slot, /*changed=*/true);
     return true;
   }
   if constexpr (!Laws::kPlain) {
@@ -144,23 +144,20 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
       return true;
     }
   }
-  const bool is_due = has_due && ((due_.a == slot && due_.b == event.partner) ||
-                                  (due_.b == slot && due_.a == event.partner));
-  std::optional<Contact> found;
-  if (!is_due) found = contact_of(slot, event.partner);
-  const Contact* const contact = is_due ? &due_ : (found ? &*found : nullptr);
-  check(contact != nullptr, "a scheduled contact is no contact of the stored motions");
+  if (!is_due) {
+    const std::optional<Contact> found = contact_of(slot, event.partner);
+    check(found.has_value(), "a scheduled contact is no contact of the stored motions");
+    due_ = *found;
+  }
   check(event.at >= now_, "a contact was scheduled in the past");
-  if (has_stalled(event.at) || is_squeezed(*contact)) return false;
+  if (has_stalled(event.at) || is_squeezed(due_)) return false;
   count_towards_stall();
-  if constexpr (kHasSights<Laws>) {
-    if (!all_pairs()) {
-      for (const Slot own : {contact->a, contact->b}) {
-        if (at(own).is_dynamic()) prefetch_sights(own);
-      }
+  if (has_sights()) {
+    for (const Slot own : {due_.a, due_.b}) {
+      if (at(own).is_dynamic()) prefetch_sights(own);
     }
   }
-  resolve(*contact, event.at, sink);
+  resolve(due_, event.at, sink);
   if (!at(slot).is_dynamic()) predict(slot, /*changed=*/false);
   return true;
 }
@@ -250,7 +247,9 @@ template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_about_to_meet(Slot slot) const {
   const Event<S>& next = queue_.event_of(slot);
   const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
-  if (next.partner < 0 || hop(slot, now_, next.at) > tiny) return false;
+  if (next.partner < 0 || next.kind == EventKind::NeighbourRenewal ||
+      hop(slot, now_, next.at) > tiny)
+    return false;
   if constexpr (!Laws::kPlain) {
     if (is_zone(next.partner)) {
       const Event<S> meeting = next_but_for_zones(slot);
@@ -280,7 +279,8 @@ bool BasicWorld<S, Laws>::is_simultaneous(const Contact& contact,
 
 // From a to b; only its direction matters to the contact law.
 template <class S, class Laws>
-DoubleWord2<S> BasicWorld<S, Laws>::contact_vector(const Contact& contact) const {
+[[gnu::always_inline]] inline DoubleWord2<S> BasicWorld<S, Laws>::contact_vector(
+    const Contact& contact) const {
   if (contact.kind == EventKind::DiskWall) {
     const DoubleWord2<S>& edge = shape(contact.b).edge;
     const DoubleWord2<S> q = Laws::kCurved
@@ -299,10 +299,11 @@ void BasicWorld<S, Laws>::rebase(Slot slot, const Time<S>& instant) {
   turn(slot, instant);
   const DoubleWord2<S> position = position_of(slot, instant);
   if constexpr (Laws::kGrows) body.grown = radius_of(slot, instant);
-  body.motion.velocity = velocity_of(slot, instant);
+  if constexpr (Laws::kCurved) body.motion.velocity = velocity_of(slot, instant);
   body.motion.position = position;
   body.motion.since = instant;
   ++body.changes;
+  if (!all_pairs()) neighbours_.note_event(slot);
   begin_motion(slot, instant);
   note_digest_stale(slot);
   note_change(slot, ChangeKind::Moved);

@@ -19,6 +19,9 @@ namespace stoss::engine {
 
 /// A wall may be this many periods long. Chosen: longer ones have more images than sense.
 inline constexpr double kWallPeriodsMax = 1024;
+/// A small cage and its margin reach so far from its middle, at most; periods. Chosen: a little
+/// below a quarter, for two of them together.
+inline constexpr double kSmallCage = 0.249;
 /// Periods that a body may cross in a second when a command sets it off. Chosen: boxes that it
 /// needs a nanosecond to leave are then a period large.
 inline constexpr double kPeriodsPerSecondMax = 0x1p30;
@@ -152,6 +155,10 @@ void BasicWorld<S, Laws>::renew_cage(Slot slot, Role role, double margin) {
     largest = std::min(largest, 0.5 * (0.5 * space_.smallest() - radius_now(slot)));
   }
   if (all_pairs()) margin = largest;
+  // Where a disk's cage can be small enough for has_small_cage(), it is made so.
+  const double small = 0.5 * (kSmallCage * space_.smallest() - radius_now(slot));
+  if (!all_pairs() && role == Role::DynamicDisk && 2 * small > radius_now(slot))
+    largest = std::min(largest, small);
   margin = std::max(std::min(margin, largest), smallest_margin(slot));
   const Glance here = glance_of(slot);
   const auto home = [](double x, double length) {
@@ -165,14 +172,34 @@ void BasicWorld<S, Laws>::renew_cage(Slot slot, Role role, double margin) {
       grown(tight, margin), image, {here.x, here.y, here.x_low, here.y_low}, margin};
   space_.bounds = merged(space_.bounds, space_.cages[index(slot)].box);
   if (all_pairs()) return;
+  renew_sight(slot);
   neighbours_.renew(
       slot,
       role,
       tight,
       here,
-      margin,
+      {margin, margin, /*may_stand_in_cells=*/false},
       [this, slot](Slot other) { return interacts(slot, other); },
       [this](const Aabb& box, const auto& visit) { space_.for_each_copy(box, visit); });
+}
+
+/// Do two bodies like this one meet by their nearest images alone, before one of them renews its
+/// cage? Their boxes overlap for no other image, and their centres are less than half a period from
+/// each other by that one.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::has_small_cage([[maybe_unused]] Slot slot) const {
+  if constexpr (!Laws::kPlain) {
+    if (!is_periodic()) return true;
+    if (index(slot) >= space_.cages.size()) return false;
+    const Cage& cage = space_.cage(slot);
+    const auto is_small = [&](double low, double high, double length) {
+      return !(length > 0) || 0.5 * (high - low) + cage.margin < kSmallCage * 1.0001 * length;
+    };
+    return is_small(cage.box.low_x, cage.box.high_x, space_.length_x) &&
+           is_small(cage.box.low_y, cage.box.high_y, space_.length_y);
+  } else {
+    return true;
+  }
 }
 
 template <class S, class Laws>
@@ -181,19 +208,11 @@ double BasicWorld<S, Laws>::next_margin(Slot slot) const {
 }
 
 template <class S, class Laws>
-Neighbours::Anchor BasicWorld<S, Laws>::anchor_of(Slot slot) const {
+Neighbours::Leeway BasicWorld<S, Laws>::leeway_of(Slot slot) const {
   if constexpr (!Laws::kPlain) {
-    if (is_periodic()) return space_.cage(slot).anchor;
+    if (is_periodic()) return {space_.cage(slot).anchor, space_.cage(slot).margin};
   }
-  return neighbours_.anchor(slot);
-}
-
-template <class S, class Laws>
-double BasicWorld<S, Laws>::margin_of(Slot slot) const {
-  if constexpr (!Laws::kPlain) {
-    if (is_periodic()) return space_.cage(slot).margin;
-  }
-  return neighbours_.margin(slot);
+  return neighbours_.leeway(slot);
 }
 
 /// Calls visit(box) for each copy of a box in which stored boxes that meet one of its images lie.
@@ -221,9 +240,8 @@ Vector2 BasicWorld<S, Laws>::shown(const DoubleWord2<S>& position) const {
 
 /// p - q, of the image of p.
 template <class S, class Laws>
-DoubleWord2<S> BasicWorld<S, Laws>::apart(const DoubleWord2<S>& p,
-                                          const DoubleWord2<S>& q,
-                                          [[maybe_unused]] const Which& image) const {
+[[gnu::always_inline]] inline DoubleWord2<S> BasicWorld<S, Laws>::apart(
+    const DoubleWord2<S>& p, const DoubleWord2<S>& q, [[maybe_unused]] const Which& image) const {
   if constexpr (Laws::kPlain) {
     return p - q;
   } else {

@@ -16,7 +16,8 @@
 namespace stoss::engine {
 
 template <class S, class Laws>
-DoubleWord2<S> BasicWorld<S, Laws>::position_of(Slot slot, const Time<S>& instant) const {
+[[gnu::always_inline]] inline DoubleWord2<S> BasicWorld<S, Laws>::position_of(
+    Slot slot, const Time<S>& instant) const {
   const Motion<S>& motion = at(slot).motion;
   if constexpr (Laws::kDragged) {
     return flight_of(slot, instant).position;
@@ -28,8 +29,8 @@ DoubleWord2<S> BasicWorld<S, Laws>::position_of(Slot slot, const Time<S>& instan
 }
 
 template <class S, class Laws>
-DoubleWord2<S> BasicWorld<S, Laws>::velocity_of(Slot slot,
-                                                [[maybe_unused]] const Time<S>& instant) const {
+[[gnu::always_inline]] inline DoubleWord2<S> BasicWorld<S, Laws>::velocity_of(
+    Slot slot, [[maybe_unused]] const Time<S>& instant) const {
   const Motion<S>& motion = at(slot).motion;
   if constexpr (Laws::kDragged) {
     return flight_of(slot, instant).velocity;
@@ -194,22 +195,26 @@ S BasicWorld<S, Laws>::valid_for(Slot a, Slot b, const Time<S>& reference) const
 /// Sets what follows from a velocity that has just been written: the law's part, and the sight.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_law(Slot slot) {
+  if constexpr (Laws::kCurved) renew_acceleration(slot);
   renew_sight(slot);
-  if constexpr (Laws::kCurved) {
-    Body<S, Laws>& body = at(slot);
-    body.moves_for = {std::numeric_limits<S>::infinity(), S(0)};
-    body.acceleration = wind_on(slot);
-    if (!body.is_dynamic()) return;
-    if (body.support != kNoId) {
-      renew_rest(slot);
-      return;
-    }
-    body.acceleration = laws_.gravity;
-    if (!(laws_.deceleration > S(0))) return;
-    const Slowing<S> slow = slowing<S>(body.motion.velocity, laws_.deceleration);
-    body.acceleration = slow.acceleration;
-    body.moves_for = slow.moves_for;
+}
+
+/// What pulls at the body, and for how long.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::renew_acceleration(Slot slot) {
+  Body<S, Laws>& body = at(slot);
+  body.moves_for = {std::numeric_limits<S>::infinity(), S(0)};
+  body.acceleration = wind_on(slot);
+  if (!body.is_dynamic()) return;
+  if (body.support != kNoId) {
+    renew_rest(slot);
+    return;
   }
+  body.acceleration = laws_.gravity;
+  if (!(laws_.deceleration > S(0))) return;
+  const Slowing<S> slow = slowing<S>(body.motion.velocity, laws_.deceleration);
+  body.acceleration = slow.acceleration;
+  body.moves_for = slow.moves_for;
 }
 
 /// What befalls a body by itself, first of all.
@@ -292,14 +297,15 @@ void BasicWorld<S, Laws>::set_rotation(Slot slot, const Rotation& rotation) {
 /// Brings the angle of a disk to an instant, before its motion is written.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::turn(Slot slot, const Time<S>& instant) {
-  const auto since = to_instant(at(slot).motion.since);
   if constexpr (Laws::kPlain) {
     if (rotations_.empty()) return;
     const auto rotation = rotations_.find(slot);
     if (rotation == rotations_.end()) return;
+    const auto since = to_instant(at(slot).motion.since);
     Rotation& r = rotation->second;
     r.angle = turned(r.angle, r.spin, since, to_instant(instant));
   } else {
+    const auto since = to_instant(at(slot).motion.since);
     const Rotation r = rotation_of(slot);
     at(slot).angle = turned(r.angle, r.spin, since, to_instant(instant));
   }

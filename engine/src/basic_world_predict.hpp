@@ -5,7 +5,6 @@
 
 #include "basic_world.hpp"
 #include "contact_time/disk_disk.hpp"
-#include "prefetch.hpp"
 #include "screen.hpp"
 
 namespace stoss::engine {
@@ -32,10 +31,6 @@ bool BasicWorld<S, Laws>::interacts(Slot a, Slot b) const {
 // slanted wall, whose box is wide, disks are told apart by their distance from its line.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::may_become_close(Slot a, Slot b) const {
-  if constexpr (kHasSights<Laws>) {  // the usual pair, known from lines that are at hand
-    const auto& sights = sights_.of_slot;
-    if (sights[index(a)].unlike == 0 && sights[index(b)].unlike == 0) return a != b;
-  }
   if (!interacts(a, b)) return false;
   if (is_periodic()) return true;
   if (at(a).is_wall()) return !is_far_from_line(a, neighbours_.box_of(b));
@@ -49,8 +44,7 @@ bool BasicWorld<S, Laws>::is_far_from_line(Slot wall, const Aabb& box) const {
   const DoubleWord2<S>& edge = shape(wall).edge;
   const auto ex = static_cast<double>(edge.x.hi);
   const auto ey = static_cast<double>(edge.y.hi);
-  const auto anchor = neighbours_.anchor(wall);
-  const double margin = neighbours_.margin(wall);
+  const auto [anchor, margin] = neighbours_.leeway(wall);
   const double x = 0.5 * box.low_x + 0.5 * box.high_x - (anchor.x + anchor.x_low);
   const double y = 0.5 * box.low_y + 0.5 * box.high_y - (anchor.y + anchor.y_low);
   const double half_x = 0.5 * (box.high_x - box.low_x) + margin;
@@ -80,7 +74,7 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
       if (at(other).id != kNoId && interacts(slot, other)) visit(other);
     }
   } else if (at(slot).is_dynamic()) {
-    for (const Slot other : neighbours_.of(slot)) visit(other);
+    neighbours_.for_each(slot, visit);
   } else {
     if constexpr (!Laws::kPlain) {
       if (is_periodic()) {
@@ -95,10 +89,8 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
 }
 
 template <class S, class Laws>
-auto BasicWorld<S, Laws>::relative_motion(Slot of,
-                                          Slot from,
-                                          const Time<S>& reference,
-                                          const Which& image) const -> Relative {
+[[gnu::always_inline]] inline auto BasicWorld<S, Laws>::relative_motion(
+    Slot of, Slot from, const Time<S>& reference, const Which& image) const -> Relative {
   if constexpr (Laws::kDragged) {
     const Flight<S> a = flight_of(of, reference);
     const Flight<S> b = flight_of(from, reference);
@@ -122,20 +114,19 @@ auto BasicWorld<S, Laws>::relative_motion(Slot of,
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::disk_disk_contact_of(Slot a, Slot b, const Which& image) const
     -> std::optional<Contact> {
-  Contact contact{.a = a,
-                  .b = b,
-                  .kind = EventKind::DiskDisk,
-                  .feature = WallFeature::Face,
-                  .reference = std::max(at(a).motion.since, at(b).motion.since),
-                  .relative = {},
-                  .after_reference = {},
-                  .image = image};
-  contact.relative = relative_motion(b, a, contact.reference, image);
-  const auto after = Laws::pair_contact(
-      contact.relative, reach_between(a, b, contact.reference), valid_for(a, b, contact.reference));
+  const Time<S> reference = std::max(at(a).motion.since, at(b).motion.since);
+  const Relative relative = relative_motion(b, a, reference, image);
+  const auto after =
+      Laws::pair_contact(relative, reach_between(a, b, reference), valid_for(a, b, reference));
   if (!after) return std::nullopt;
-  contact.after_reference = *after;
-  return contact;
+  return Contact{.a = a,
+                 .b = b,
+                 .kind = EventKind::DiskDisk,
+                 .feature = WallFeature::Face,
+                 .reference = reference,
+                 .relative = relative,
+                 .after_reference = *after,
+                 .image = image};
 }
 
 template <class S, class Laws>
@@ -236,7 +227,8 @@ std::optional<Event<S>> BasicWorld<S, Laws>::event_with(Slot holder, Slot partne
 }
 
 template <class S, class Laws>
-std::optional<Event<S>> BasicWorld<S, Laws>::event_of(const Contact& contact, Slot partner) const {
+[[gnu::always_inline]] inline std::optional<Event<S>> BasicWorld<S, Laws>::event_of(
+    const Contact& contact, Slot partner) const {
   const auto instant =
       later_by(contact.reference, contact.after_reference.hi, contact.after_reference.lo);
   if (!instant) return std::nullopt;
@@ -248,17 +240,26 @@ template <class S, class Laws>
 Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const {
   Event<S> event;
   if (all_pairs() && !is_periodic()) return event;
+  const double after = time_in_box(slot, here);
+  if (const auto instant = later_by(now_, S(after), S(0))) event.at = *instant;
+  return event;
+}
+
+/// For how long that displacement stays below the margin, s; infinity if it does for ever.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::time_in_box(Slot slot, const Glance& here) const {
+  double after = std::numeric_limits<double>::infinity();
   double pull = 0;
   if constexpr (Laws::kCurved) pull = pull_of(slot);
   const double growth = growth_of(slot);
-  if (here.vx == 0 && here.vy == 0 && pull == 0 && growth == 0) return event;
+  if (here.vx == 0 && here.vy == 0 && pull == 0 && growth == 0) return after;
   constexpr double kEarly = 1 - kScreenSlack<S>;
-  const Neighbours::Anchor anchor = anchor_of(slot);
-  double margin = margin_of(slot) * kEarly;
+  const Neighbours::Leeway leeway = leeway_of(slot);
+  const Neighbours::Anchor& anchor = leeway.anchor;
+  double margin = leeway.margin * kEarly;
   if constexpr (Laws::kGrows) margin -= radius_now(slot) - at(slot).boxed_radius;
   const double moved_x = (here.x - anchor.x) + (here.x_low - anchor.x_low);
   const double moved_y = (here.y - anchor.y) + (here.y_low - anchor.y_low);
-  double after = std::numeric_limits<double>::infinity();
   const auto leave = [&](double moved, double v) {
     if constexpr (Laws::kDragged) {  // the drag ends the motion before
       const double way = margin - std::abs(moved);
@@ -266,7 +267,9 @@ Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const
       if (is_held && std::abs(v) < static_cast<double>(laws_.drag) * way) return;
     }
     if constexpr (Laws::kCurved) {
-      after = std::min(after, shortest_crossing(margin - std::abs(moved), std::abs(v), pull));
+      after = std::min({after,
+                        shortest_crossing(margin - moved, std::max(v, 0.0), pull),
+                        shortest_crossing(margin + moved, std::max(-v, 0.0), pull)});
     } else if constexpr (Laws::kGrows) {
       after = std::min(after, (margin - std::abs(moved)) / (std::abs(v) + growth));
     } else if (v != 0) {
@@ -275,8 +278,7 @@ Event<S> BasicWorld<S, Laws>::renewal_event(Slot slot, const Glance& here) const
   };
   leave(moved_x, here.vx);
   leave(moved_y, here.vy);
-  if (const auto instant = later_by(now_, S(std::max(after, 0.0)), S(0))) event.at = *instant;
-  return event;
+  return std::max(after, 0.0);
 }
 
 /// Seconds until an event, a little more; infinity for one that never comes.
@@ -343,10 +345,7 @@ bool BasicWorld<S, Laws>::may_meet_at(
 // its neighbours hold are offered to them.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::predict(Slot slot, bool changed) {
-  if constexpr (kHasSights<Laws>) {
-    if (!all_pairs() && !is_periodic()) return foresee(slot, changed);
-  }
-  predict_closely(slot, changed);
+  has_sights() ? foresee(slot, changed) : predict_closely(slot, changed);
 }
 
 // By the kernels: the event is exact.
@@ -376,186 +375,6 @@ void BasicWorld<S, Laws>::predict_closely(Slot slot, bool changed) {
   });
   if (!all_pairs()) neighbours_.note_work(slot);
   queue_.set(slot, best, ids);
-}
-
-// By sights: of what the body has before it, the soonest becomes its event as a guess, and a kernel
-// is asked when it is due; most guesses are overtaken by other contacts before. What is due at
-// once, and walls, are predicted closely.
-template <class S, class Laws>
-void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
-  if constexpr (kHasSights<Laws>) {
-    constexpr double kNear = 1e-9;  // s; sooner, a guess would not be below the resolution of time
-    const double now = time_of_sights();
-    const Sight& own = sights_.of_slot[index(slot)];
-    const double renewal = time_to_renewal(slot, own, now);
-    Foresight ahead;
-    if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
-    if (at(slot).is_dynamic()) {
-      const double smallest_held = own.radius * (1.0 / kHolderRatioMax);
-      const auto list = neighbours_.of(slot);
-      static_cast<SoonestTwo&>(ahead) =
-          soonest_contacts(slot, list, sights_.of_slot, smallest_held, now, kScreenSlack<S>);
-      if (ahead.has_others) {
-        for (const Slot other : list) {
-          if (!is_passed_over(sights_.of_slot[index(other)], smallest_held)) continue;
-          look_at_unlike(slot, other, changed, now, renewal, ahead);
-        }
-      }
-    } else {
-      for_each_neighbour(slot, [&](Slot other) {
-        bool holds = false;
-        if constexpr (!Laws::kPlain) holds = is_zone(other);  // a kinematic disk: its crossings
-        if (changed || holds) look_at_unlike(slot, other, changed, now, renewal, ahead);
-      });
-    }
-    neighbours_.note_work(slot);
-    schedule(slot, ahead, renewal, kNear);
-  }
-}
-
-/// Asks for all that a prediction of the body will look at: one wait instead of a dozen.
-template <class S, class Laws>
-void BasicWorld<S, Laws>::prefetch_sights([[maybe_unused]] Slot slot) const {
-  if constexpr (kHasSights<Laws>) {
-    for (const Slot other : neighbours_.of(slot)) prefetch(&sights_.of_slot[index(other)]);
-  }
-}
-
-// A neighbour that is a wall, a zone, fixed, or a much smaller disk, which holds the pair itself.
-template <class S, class Laws>
-void BasicWorld<S, Laws>::look_at_unlike(
-    Slot slot, Slot other, bool changed, double now, double renewal, Foresight& ahead) {
-  const bool is_held = holds_prediction(slot, other);
-  if (!is_held && !changed) return;
-  if (at(slot).is_disk() && at(other).is_disk()) {
-    const double soonest = soonest_contact(
-        sights_.of_slot[index(slot)], sights_.of_slot[index(other)], now, kScreenSlack<S>);
-    return is_held ? ahead.note(other, soonest) : offer(other, slot, soonest);
-  }
-  if (!is_held) return offer(other, slot, 0);
-  // Rather more than the bound of a guess: the guess may come later, but hardly so much.
-  constexpr double kBeyond = 1.25;
-  double horizon = std::min(renewal, kBeyond * ahead.first);
-  if (ahead.exact) horizon = std::min(horizon, horizon_of(*ahead.exact));
-  if (!may_meet(slot, glance_of(slot), other, horizon)) {
-    ahead.second = std::min(ahead.second, horizon);
-    return;
-  }
-  const auto event = event_with(slot, other);
-  if (event && (!ahead.exact || earlier(*event, slot, *ahead.exact, slot, id_lookup()))) {
-    ahead.exact = event;
-  }
-}
-
-// Makes the first of what lies ahead the body's event.
-template <class S, class Laws>
-void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double renewal, double near) {
-  if (ahead.first < near) return predict_closely(slot, /*changed=*/false);
-  Event<S> next;
-  double limit = renewal;
-  if (ahead.exact) {
-    const double due = rough_seconds(ahead.exact->at, now_);
-    if (due < limit) next = *ahead.exact;
-    limit = std::min(limit, due);
-  }
-  if (ahead.first < limit) {
-    const Slot partner = ahead.partner;
-    next = {roughly_later(now_, ahead.first),
-            partner,
-            at(partner).changes,
-            EventKind::Guess,
-            at(partner).id,
-            safe_difference(std::min(ahead.second, limit), ahead.first)};
-  } else if (limit == renewal) {
-    next = Event<S>{};
-    next.at = roughly_later(now_, renewal);
-  }
-  queue_.set(slot, next, id_lookup());
-}
-
-/// Seconds until the body leaves its box, a little less; infinity if it never does.
-template <class S, class Laws>
-double BasicWorld<S, Laws>::time_to_renewal(Slot slot, const Sight& own, double now) const {
-  constexpr double kEarly = 1 - 1e-6;
-  const auto anchor = neighbours_.anchor(slot);
-  const double margin = neighbours_.margin(slot) * kEarly;
-  if (!(own.off < 1e-6 * margin)) {  // far from the origin
-    const Event<S> event = renewal_event(slot, glance_of(slot));
-    return event.at == Time<S>::never() ? std::numeric_limits<double>::infinity()
-                                        : rough_seconds(event.at, now_);
-  }
-  const double elapsed = now - own.since;
-  const double moved_x = (own.x + own.vx * elapsed) - (anchor.x + anchor.x_low);
-  const double moved_y = (own.y + own.vy * elapsed) - (anchor.y + anchor.y_low);
-  // Where a component is zero, so is its share: margin / 0 is infinite.
-  const double after_x = (margin - std::copysign(moved_x, moved_x * own.vx)) / std::abs(own.vx);
-  const double after_y = (margin - std::copysign(moved_y, moved_y * own.vy)) / std::abs(own.vy);
-  return std::max(0.0, std::min(after_x, after_y));
-}
-
-// A pair that `holder` holds has changed; it does not meet before `soonest`, s from now.
-template <class S, class Laws>
-void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
-  const auto ids = id_lookup();
-  Event<S> theirs = queue_.event_of(holder);
-  const double horizon = horizon_of(theirs);
-  const bool may_be_first =
-      soonest < horizon && may_meet(changed, glance_of(changed), holder, horizon);
-  if (may_be_first) {
-    const auto event = event_with(holder, changed);
-    if (!event) return;
-    if (earlier(*event, holder, theirs, holder, ids)) {
-      queue_.set(holder, *event, ids);
-      return;
-    }
-    soonest = std::max(soonest, rough_seconds(event->at, now_));
-  }
-  if (theirs.kind != EventKind::Guess) return;
-  const float clear_for = safe_difference(soonest, horizon);
-  if (!(clear_for < theirs.clear_for)) return;
-  theirs.clear_for = clear_for;
-  queue_.set(holder, theirs, ids);
-}
-
-// The guess of a body has come up: asks the kernel.
-template <class S, class Laws>
-void BasicWorld<S, Laws>::sharpen(Slot slot) {
-  const Event<S> guess = queue_.event_of(slot);
-  for (const Slot own : {slot, guess.partner}) {
-    prefetch_all(at(own));
-    neighbours_.prefetch_place(own);
-  }
-  if (is_stale(guess)) return predict(slot, /*changed=*/false);
-  const std::optional<Contact> contact = contact_of(slot, guess.partner);
-  const auto event = contact ? event_of(*contact, guess.partner) : std::nullopt;
-  if (!event || !(rough_seconds(event->at, guess.at) < static_cast<double>(guess.clear_for))) {
-    return predict_closely(slot, /*changed=*/false);
-  }
-  for (const Slot own : {slot, guess.partner}) neighbours_.prefetch_list(own);
-  due_ = *contact;
-  has_due_ = true;
-  queue_.set(slot, *event, id_lookup());
-}
-
-/// The present as sights count it, s; takes them anew where their epoch is over.
-template <class S, class Laws>
-double BasicWorld<S, Laws>::time_of_sights() {
-  if constexpr (kHasSights<Laws>) {
-    ++sights_.uses;
-    const double now = rough_seconds(now_, sights_.epoch.begin);
-    if (now <= sights_.epoch.length) return now;
-    sights_.epoch.renew(now_, std::exchange(sights_.uses, 0), slots_.size());
-    for (Slot slot = 0; index(slot) < bodies_.size(); ++slot) renew_sight(slot);
-  }
-  return 0;
-}
-
-template <class S, class Laws>
-void BasicWorld<S, Laws>::renew_sight([[maybe_unused]] Slot slot) {
-  if constexpr (kHasSights<Laws>) {
-    const Body<S, Laws>& body = at(slot);
-    sights_.of_slot[index(slot)] = sight_of(body.motion, body.radius, body.type, sights_.epoch);
-  }
 }
 
 /// The body's extent at now(), in doubles, and what rounding may add to it.
@@ -616,7 +435,9 @@ void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
                     role,
                     tight_box(slot),
                     glance_of(slot),
-                    std::max(margin, smallest_margin(slot)),
+                    {std::max(margin, smallest_margin(slot)),
+                     smallest_margin(slot),
+                     /*may_stand_in_cells=*/!Laws::kGrows},
                     [this, slot](Slot other) { return may_become_close(slot, other); });
 }
 

@@ -10,7 +10,8 @@
 //
 // Source: the calendar of Paul, J. Comput. Phys. 221 (2007) 615. Deviations: bucket numbers are
 // shifted instants, exact integers, so no order is ever decided by rounding; the open bucket is a
-// heap, so that a million events at one instant cost a logarithm each and not a scan; width and
+// heap, so that a million events at one instant cost a logarithm each and not a scan, with the
+// instants in its entries, so that comparing touches no other line; width and
 // number of buckets are taken from the events themselves at every lap.
 //
 // Invariants: 1. the heap holds every event that is due before the open bucket ends, a bucket every
@@ -50,8 +51,9 @@ struct Event {
   std::int32_t partner = -1;          ///< slot of the other body; -1: an event of one body alone
   std::uint32_t partner_changes = 0;  ///< the partner's count when this was predicted
   EventKind kind = EventKind::NeighbourRenewal;
-  Id partner_id = kNoId;  ///< kept here: a slot may be given to another body while the event waits
-  float clear_for = 0;    ///< s; of a guess: the body has no other event so soon after `at`
+  Id partner_id = kNoId;   ///< kept here: a slot may be given to another body while the event waits
+  float clear_for = 0;     ///< s; of a guess: the body has no other event so soon after it
+  float until_guess = -1;  ///< s; of a renewal: the guess of `partner` that then stands; < 0: none
 };
 
 /// The ids of an event's bodies, lower first.
@@ -94,8 +96,8 @@ class EventQueue {
   /// The slot of the first event. REQUIRES: !empty()
   template <class Ids>
   std::int32_t top(const Ids& ids) {
-    while (heap_.empty()) open_next_bucket(ids);
-    return heap_.front();
+    while (heap_size_ == 0) open_next_bucket(ids);
+    return heap_.front().slot;
   }
 
   /// A slot whose turn comes soon after the first's; -1: none is known. For asking for memory
@@ -110,15 +112,11 @@ class EventQueue {
   /// Sets the event of a slot; one that never comes leaves the queue. REQUIRES: admitted.
   template <class Ids>
   void set(std::int32_t slot, const Event<S>& event, const Ids& ids) {
-    Line& line = lines_[index(slot)];
-    if (event.at == Time<S>::never()) {
-      erase(slot, ids);
-      return;
-    }
     const std::int32_t home = home_of(event.at);
-    if (line.home == kHeap && home == kHeap) {
+    Line& line = lines_[index(slot)];
+    if (home == kHeap && line.home == kHeap) {
       line.event = event;
-      sift_down(sift_up(line.place, ids), ids);
+      find_place(line.place, entry_of(slot), ids);
       return;
     }
     take_out(slot, ids);
@@ -126,9 +124,11 @@ class EventQueue {
     put_in(slot, home, ids);
   }
 
+  /// Of a renewal: what the body is to do then, it is to find out then.
+  void forget_guess(std::int32_t slot) { line(slot).event.until_guess = -1; }
+
   template <class Ids>
   void erase(std::int32_t slot, const Ids& ids) {
-    if (lines_[index(slot)].home == kAbsent) return;
     take_out(slot, ids);
     lines_[index(slot)].event = Event<S>{};
   }
@@ -141,6 +141,7 @@ class EventQueue {
 
   static constexpr std::int32_t kNull = -1;
   static constexpr std::int32_t kArity = 4;
+  static constexpr std::size_t kHeapMin = 64;
   static constexpr std::size_t kBucketsMin = 64;
   static constexpr std::size_t kBucketsMax = std::size_t{1} << 22;
   /// A bucket with more events than this, where buckets were cut for one each: time to cut anew.
@@ -156,10 +157,21 @@ class EventQueue {
     std::int32_t previous = kNull;
   };
 
+  /// A slot in the heap, with its instant at hand.
+  struct Entry {
+    Int128 at;  ///< bucket_ticks
+    std::int32_t slot;
+  };
+
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   Line& line(std::int32_t slot) { return lines_[index(slot)]; }
 
+  Entry entry_of(std::int32_t slot) const {
+    return {detail::bucket_ticks(event_of(slot).at), slot};
+  }
+
   std::int32_t home_of(const Time<S>& at) const {
+    if (at == Time<S>::never()) return kAbsent;
     const Int128 after = detail::bucket_ticks(at) - lap_start_;
     if (after < open_end_) return kHeap;
     if (after >= lap_length_) return kRest;
@@ -167,14 +179,14 @@ class EventQueue {
   }
 
   template <class Ids>
-  void put_in(std::int32_t slot, std::int32_t home, const Ids& ids) {
+  [[gnu::always_inline]] inline void put_in(std::int32_t slot, std::int32_t home, const Ids& ids) {
     Line& entering = line(slot);
     entering.home = home;
+    if (home == kAbsent) return;
     ++size_;
     if (home == kHeap) {
-      entering.place = static_cast<std::int32_t>(heap_.size());
-      heap_.push_back(slot);
-      sift_up(entering.place, ids);
+      if (index(heap_size_) == heap_.size()) heap_.resize(2 * heap_.size() + kHeapMin);
+      sift_up(heap_size_++, entry_of(slot), ids);
     } else if (home == kRest) {
       entering.place = static_cast<std::int32_t>(rest_.size());
       rest_.push_back(slot);
@@ -189,18 +201,15 @@ class EventQueue {
   }
 
   template <class Ids>
-  void take_out(std::int32_t slot, const Ids& ids) {
+  [[gnu::always_inline]] inline void take_out(std::int32_t slot, const Ids& ids) {
     Line& leaving = line(slot);
     const std::int32_t home = leaving.home;
     if (home == kAbsent) return;
     leaving.home = kAbsent;
     --size_;
     if (home == kHeap) {
-      const std::int32_t last = heap_.back();
-      heap_.pop_back();
-      if (last == slot) return;
-      put(leaving.place, last);
-      sift_down(sift_up(leaving.place, ids), ids);
+      const Entry last = heap_[index(--heap_size_)];
+      if (last.slot != slot) find_place(leaving.place, last, ids);
     } else if (home == kRest) {
       const std::int32_t last = rest_.back();
       rest_.pop_back();
@@ -238,9 +247,10 @@ class EventQueue {
         put_in(slot, kHeap, ids);
         slot = next;
       }
-      released_ += heap_.size();
-      if (heap_.size() > kCrowd && 2 * released_ > size_) gather_all();
-      if (heap_.empty()) break;
+      const std::size_t released = index(heap_size_);
+      released_ += released;
+      if (released > kCrowd && 2 * released_ > size_) gather_all();
+      if (heap_size_ == 0) break;
       look_ahead();
       return;
     }
@@ -264,8 +274,8 @@ class EventQueue {
 
   // The world has become faster or fuller than the buckets were cut for.
   void gather_all() {
-    for (const std::int32_t slot : heap_) gather(slot);
-    heap_.clear();
+    for (std::int32_t place = 0; place < heap_size_; ++place) gather(heap_[index(place)].slot);
+    heap_size_ = 0;
     for (std::size_t word = first_word_; word < occupied_.size(); ++word) {
       for (; occupied_[word] != 0; occupied_[word] &= occupied_[word] - 1) {
         const std::size_t bucket =
@@ -332,51 +342,65 @@ class EventQueue {
   }
 
   template <class Ids>
-  bool before(std::int32_t a, std::int32_t b, const Ids& ids) const {
+  bool before(const Entry& a, const Entry& b, const Ids& ids) const {
+    if (a.at != b.at) [[likely]]
+      return a.at < b.at;
+    return tie(a.slot, b.slot, ids);
+  }
+
+  template <class Ids>
+  [[gnu::noinline, gnu::cold]] bool tie(std::int32_t a, std::int32_t b, const Ids& ids) const {
     return earlier(event_of(a), a, event_of(b), b, ids);
   }
 
-  void put(std::int32_t place, std::int32_t slot) {
-    heap_[index(place)] = slot;
-    line(slot).place = place;
+  void put(std::int32_t place, const Entry& entry) {
+    heap_[index(place)] = entry;
+    line(entry.slot).place = place;
+  }
+
+  /// Puts an entry where it belongs, with a gap in the heap at `place`.
+  template <class Ids>
+  void find_place(std::int32_t place, const Entry& entry, const Ids& ids) {
+    if (place > 0 && before(entry, heap_[index((place - 1) / kArity)], ids)) {
+      sift_up(place, entry, ids);
+    } else {
+      sift_down(place, entry, ids);
+    }
   }
 
   template <class Ids>
-  std::int32_t sift_up(std::int32_t place, const Ids& ids) {
-    const std::int32_t slot = heap_[index(place)];
+  void sift_up(std::int32_t place, const Entry& entry, const Ids& ids) {
     while (place > 0) {
       const std::int32_t parent = (place - 1) / kArity;
-      if (!before(slot, heap_[index(parent)], ids)) break;
+      if (!before(entry, heap_[index(parent)], ids)) break;
       put(place, heap_[index(parent)]);
       place = parent;
     }
-    put(place, slot);
-    return place;
+    put(place, entry);
   }
 
   template <class Ids>
-  void sift_down(std::int32_t place, const Ids& ids) {
-    const auto size = static_cast<std::int32_t>(heap_.size());
-    const std::int32_t slot = heap_[index(place)];
+  void sift_down(std::int32_t place, const Entry& entry, const Ids& ids) {
     for (;;) {
       const std::int32_t first = kArity * place + 1;
-      if (first >= size) break;
-      const std::int32_t last = std::min(first + kArity, size);
+      if (first >= heap_size_) break;
+      const std::int32_t last = std::min(first + kArity, heap_size_);
       std::int32_t best = first;
       for (std::int32_t i = first + 1; i < last; ++i) {
         if (before(heap_[index(i)], heap_[index(best)], ids)) best = i;
       }
-      if (!before(heap_[index(best)], slot, ids)) break;
+      if (!before(heap_[index(best)], entry, ids)) break;
       put(place, heap_[index(best)]);
       place = best;
     }
-    put(place, slot);
+    put(place, entry);
   }
 
   std::vector<Line> lines_;  // of every slot
   std::size_t size_ = 0;
 
-  std::vector<std::int32_t> heap_;
+  std::vector<Entry> heap_;  // and room for more
+  std::int32_t heap_size_ = 0;
   std::vector<std::int32_t> buckets_;  // the first slot of each
   std::vector<std::uint64_t> occupied_;
   std::vector<std::int32_t> rest_;

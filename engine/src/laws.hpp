@@ -23,7 +23,6 @@
 #include <stoss/engine/instant.hpp>
 
 #include <limits>
-#include <type_traits>
 
 namespace stoss::engine {
 
@@ -306,10 +305,5 @@ struct DragLaws : DraggedMotions {
     S drag;  ///< 1/s, > 0
   };
 };
-
-/// Worlds whose bodies move uniformly and are round for ever: sight.hpp can look at them.
-template <class Laws>
-inline constexpr bool kHasSights =
-    std::is_same_v<Laws, PlainLaws> || std::is_same_v<Laws, ContactLaws>;
 
 }  // namespace stoss::engine

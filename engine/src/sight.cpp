@@ -34,7 +34,7 @@ struct SoonestByLane {
 /// Four sights as columns.
 struct Columns {
   SightsOf<Four> of;
-  Four unlike;
+  Four size;
 };
 [[gnu::always_inline]] inline Columns gathered(const Sight& a,
                                                const Sight& b,
@@ -46,20 +46,22 @@ struct Columns {
     return four;
   };
   Four x = from(a.x), y = from(b.x), vx = from(c.x), vy = from(d.x);
-  Four since = from(a.since), radius = from(b.since), off = from(c.since), unlike = from(d.since);
+  Four since = from(a.since), radius = from(b.since), off = from(c.since), size = from(d.since);
   lanes::transpose(x, y, vx, vy);
-  lanes::transpose(since, radius, off, unlike);
-  return {{x, y, vx, vy, since, radius, off}, unlike};
+  lanes::transpose(since, radius, off, size);
+  return {{x, y, vx, vy, since, radius, off}, size};
 }
 
 }  // namespace
 
+template <class Common>
 SoonestTwo soonest_contacts(Slot slot,
                             std::span<const Slot> list,
                             const std::vector<Sight>& sights,
-                            double radius_min,
+                            double size_min,
                             double now,
-                            double slack) {
+                            double slack,
+                            const Common& common) {
   const Present own = present_of(sights[static_cast<std::size_t>(slot)], now);
   const Four never = Four{} + std::numeric_limits<double>::infinity();
   SoonestByLane found;
@@ -70,8 +72,8 @@ SoonestTwo soonest_contacts(Slot slot,
     const Slot* four = list.data() + i;
     const auto count = static_cast<std::int64_t>(list.size() - i);
     const Columns there = gathered(see[four[0]], see[four[1]], see[four[2]], see[four[3]]);
-    const Four soonest = soonest_contact<Four>(own, there.of, now, slack);
-    const FourWords is_other = (there.unlike != 0) | (there.of.radius < radius_min);
+    const Four soonest = soonest_contact<Four>(own, there.of, now, slack, common);
+    const FourWords is_other = ~(there.size >= size_min);
     const FourWords is_beyond = FourWords{0, 1, 2, 3} >= count;
     has_others |= is_other & ~is_beyond;
     found.note(FourWords{four[0], four[1], four[2], four[3]},
@@ -81,5 +83,24 @@ SoonestTwo soonest_contacts(Slot slot,
   all.has_others = (has_others[0] | has_others[1] | has_others[2] | has_others[3]) != 0;
   return all;
 }
+
+template SoonestTwo soonest_contacts(
+    Slot, std::span<const Slot>, const std::vector<Sight>&, double, double, double, const Steady&);
+template SoonestTwo soonest_contacts(
+    Slot, std::span<const Slot>, const std::vector<Sight>&, double, double, double, const Growing&);
+template SoonestTwo soonest_contacts(Slot,
+                                     std::span<const Slot>,
+                                     const std::vector<Sight>&,
+                                     double,
+                                     double,
+                                     double,
+                                     const Repeating<Steady>&);
+template SoonestTwo soonest_contacts(Slot,
+                                     std::span<const Slot>,
+                                     const std::vector<Sight>&,
+                                     double,
+                                     double,
+                                     double,
+                                     const Repeating<Growing>&);
 
 }  // namespace stoss::engine

@@ -8,9 +8,15 @@
 //   x(t) = x + v (t - since)       t, since: seconds after the epoch of all sights (1) b = p.v,  c
 //   = p.p - d d,  D = (v.v) d d - (p x v)^2,  t >= c / (sqrt(D) - b)                  (2)
 //
-// p, v: relative position (m) and velocity (m/s) at t; d: the sum of the radii (m).
+// p, v: relative position (m) and velocity (m/s) at t; d: the sum of the radii (m). Where all radii
+// grow by m/2 a second,
 //
-// Source: (2) as in contact_time/disk_disk.hpp; interval filters as in CGAL's filtered predicates.
+//   b = p.v - d m,  D = |d v - m p|^2 - (p x v)^2  (3)
+//
+// and disks that recede meet too if |v| < m. What gravity and drag make straight: sight_frames.hpp.
+//
+// Source: (2), (3) as in contact_time/disk_disk.hpp, growing.hpp; interval filters as in CGAL's
+//   filtered predicates.
 // Deviation: every quantity is widened by its error, so that (2) is a lower bound and "never" is
 //   certain. Errors of (1): `off` covers the rounding of x and of v (t - since), with t up to the
 //   end of the epoch; Epoch chooses that end so that it stays far below the slack of (2).
@@ -34,9 +40,41 @@ struct alignas(64) Sight {
   double vx = 0;  ///< m/s
   double vy = 0;
   double since = 0;   ///< s after the epoch
-  double radius = 0;  ///< m
+  double radius = 0;  ///< m; of a growing disk: at the epoch's beginning
   double off = 0;     ///< m; by how much (1) may be wrong until the epoch ends
-  double unlike = 0;  ///< 0: a dynamic disk; 1: anything else
+  double size = -1;   ///< m, which says who holds a pair; < 0: not a disk that moves like the rest
+};
+
+/// What all bodies have in common besides (1): nothing.
+struct Steady {
+  static constexpr bool kGrows = false;
+  static constexpr bool kRepeats = false;
+};
+
+/// The reach of every two disks grows.
+struct Growing {
+  static constexpr bool kGrows = true;
+  static constexpr bool kRepeats = false;
+  double gained = 0;  ///< m, since the epoch's beginning
+  double rate = 0;    ///< m/s
+};
+
+/// And the world repeats itself: of two bodies the nearest images alone can meet.
+template <class Common>
+struct Repeating : Common {
+  static constexpr bool kRepeats = true;
+  /// m; 0 along an open axis
+  double length_x = 0;
+  double length_y = 0;
+
+  /// Of a difference of coordinates that of the nearest images. REQUIRES: below 2^50 periods.
+  template <class V>
+  [[gnu::always_inline]] static V nearest(const V& p, double length) {
+    constexpr double kToWhole = 0x1.8p52;  // numbers beside it have no fraction
+    const double periods = length > 0 ? 1 / length : 0;
+    const V whole = (p * periods + kToWhole) - kToWhole;
+    return p - whole * length;
+  }
 };
 
 /// The instant that sights count from, and how long they may.
@@ -45,14 +83,22 @@ struct Epoch {
   Time<S> begin;
   double length = 1;  ///< s
 
-  /// Whether sights must be taken anew; `events`: since the last time; `bodies`: how many there
-  /// are. Long epochs cost nothing and short ones are exact: one lasts some hundred events a body.
-  void renew(const Time<S>& now, std::uint64_t events, std::uint64_t bodies) {
+  /// Sights are taken anew; `events`: since the last time; `bodies`: how many there are. Long
+  /// epochs cost nothing and short ones are exact: one lasts some hundred events a body, or some
+  /// ten if it is longer than `fine`, s.
+  void renew(const Time<S>& now,
+             std::uint64_t events,
+             std::uint64_t bodies,
+             double fine = std::numeric_limits<double>::infinity()) {
     begin = now;
-    if (events < 64 * bodies) length = std::min(4 * length, 0x1p60);
-    if (events > 1024 * bodies) length = std::max(length / 4, 0x1p-60);
+    const bool is_coarse = length > fine;
+    if (events < (is_coarse ? 1 : 64) * bodies) length = std::min(4 * length, 0x1p60);
+    if (events > (is_coarse ? 16 : 1024) * bodies) length = std::max(length / 4, 0x1p-60);
   }
 };
+
+/// Rounding of a coordinate in double: a few units in the last place.
+inline constexpr double kSightRounding = 1e-15;
 
 /// The sight of a body with this motion, until `length` seconds after the epoch's beginning.
 template <class S>
@@ -64,12 +110,28 @@ Sight sight_of(const Motion<S>& motion, const S& radius, BodyType type, const Ep
   sight.vy = static_cast<double>(motion.velocity.y.hi) + static_cast<double>(motion.velocity.y.lo);
   sight.since = rough_seconds(motion.since, epoch.begin);
   sight.radius = static_cast<double>(radius);
-  sight.unlike = type == BodyType::Dynamic ? 0 : 1;
-  constexpr double kRounding = 1e-15;  // a few units in the last place of a coordinate
+  sight.size = type == BodyType::Dynamic ? sight.radius : -1;
   const double speed = std::abs(sight.vx) + std::abs(sight.vy);
   const double way = speed * (std::abs(sight.since) + epoch.length);
-  sight.off =
-      kRounding * (std::abs(sight.x) + std::abs(sight.y)) + kFlightSlack<S> * way + kClock * speed;
+  sight.off = kSightRounding * (std::abs(sight.x) + std::abs(sight.y)) + kFlightSlack<S> * way +
+              kClock * speed;
+  return sight;
+}
+
+/// The same of a body whose radius grows; `grown`: its radius at the motion's instant, m. The size
+/// stays that with which it came.
+template <class S>
+Sight growing_sight_of(const Motion<S>& motion,
+                       const S& radius,
+                       const DoubleWord<S>& grown,
+                       double growth,
+                       BodyType type,
+                       const Epoch<S>& epoch) {
+  Sight sight = sight_of(motion, radius, type, epoch);
+  const double since_growth = growth * (std::abs(sight.since) + epoch.length);
+  sight.radius = static_cast<double>(grown.hi) + static_cast<double>(grown.lo);
+  sight.off += kSightRounding * sight.radius + kFlightSlack<S> * since_growth + kClock * growth;
+  sight.radius -= growth * sight.since;
   return sight;
 }
 
@@ -113,20 +175,62 @@ struct SightsOf {
   V x, y, vx, vy, since, radius, off;
 };
 
+/// (3), of a relative position and velocity; `off`: by how much the position may be wrong.
+template <class V>
+[[gnu::always_inline]] inline V soonest_growing_contact(const V& px,
+                                                        const V& py,
+                                                        const V& vx,
+                                                        const V& vy,
+                                                        const V& reach,
+                                                        const V& off,
+                                                        double rate,
+                                                        double slack) {
+  using lanes::magnitude;
+  const V speed = magnitude(vx) + magnitude(vy);
+  const V near_reach = reach + off;
+  const V approach = (near_reach * rate - (px * vx + py * vy)) + off * (speed + rate);
+  const V moment = magnitude(py * vx - px * vy) - off * speed;
+  const V least = moment > 0 ? moment : V{};
+  const auto skew = [&](const V& p, const V& v) {
+    return magnitude(near_reach * v - rate * p) +
+           slack * (near_reach * magnitude(v) + rate * magnitude(p));
+  };
+  const V skew_x = skew(px, vx);
+  const V skew_y = skew(py, vy);
+  const V disc = (skew_x * skew_x + skew_y * skew_y) * (1 + slack) - least * least;
+  const V gap2 = (px * px + py * py - near_reach * near_reach) -
+                 off * (magnitude(px) + magnitude(py) + near_reach);
+  const V soonest =
+      gap2 / ((approach + lanes::root(disc)) * (1 + slack) + slack * magnitude(approach));
+  const V never = V{} + std::numeric_limits<double>::infinity();
+  const V if_any = gap2 > 0 ? soonest : V{};  // at once also for NaN, from overflow
+  const auto outruns = vx * vx + vy * vy > rate * rate * (1 + slack);
+  return (((approach < 0) & outruns) | (disc < 0)) ? never : if_any;
+}
+
 /// Equation (2): seconds after `now` (after the epoch) before which two disks certainly do not
 /// meet; infinity if they never do. `slack`: kScreenSlack of the arithmetic.
-template <class V>
+template <class V, class Common>
 [[gnu::always_inline]] inline V soonest_contact(const Present& a,
                                                 const SightsOf<V>& b,
                                                 double now,
-                                                double slack) {
+                                                double slack,
+                                                [[maybe_unused]] const Common& common) {
   using lanes::magnitude;
   const V vx = b.vx - a.vx;
   const V vy = b.vy - a.vy;
-  const V px = (b.x + b.vx * (now - b.since)) - a.x;
-  const V py = (b.y + b.vy * (now - b.since)) - a.y;
-  const V reach = a.radius + b.radius;
+  V px = (b.x + b.vx * (now - b.since)) - a.x;
+  V py = (b.y + b.vy * (now - b.since)) - a.y;
+  if constexpr (Common::kRepeats) {
+    px = common.nearest(px, common.length_x);
+    py = common.nearest(py, common.length_y);
+  }
+  V reach = a.radius + b.radius;
+  if constexpr (Common::kGrows) reach = reach + common.gained;
   const V off = (a.off + b.off) + slack * (magnitude(px) + magnitude(py) + reach);
+  if constexpr (Common::kGrows) {
+    return soonest_growing_contact<V>(px, py, vx, vy, reach, off, common.rate, slack);
+  }
   const V speed = magnitude(vx) + magnitude(vy);
   const V approach = off * speed - (px * vx + py * vy);
   const V near_reach = reach + off;
@@ -141,9 +245,11 @@ template <class V>
   return ((approach < 0) | (disc < 0)) ? never : if_any;
 }
 
-inline double soonest_contact(const Sight& a, const Sight& b, double now, double slack) {
+template <class Common = Steady>
+double soonest_contact(
+    const Sight& a, const Sight& b, double now, double slack, const Common& common = {}) {
   return soonest_contact<double>(
-      present_of(a, now), {b.x, b.y, b.vx, b.vy, b.since, b.radius, b.off}, now, slack);
+      present_of(a, now), {b.x, b.y, b.vx, b.vy, b.since, b.radius, b.off}, now, slack, common);
 }
 
 /// What a body has before it among others: bounds of its contacts, s from now.
@@ -164,19 +270,24 @@ struct SoonestTwo {
   }
 };
 
+/// Does the body move like most, so that four of them can be looked at together?
+inline bool is_like(const Sight& sight) { return sight.size >= 0; }
+
 /// Is this one for the bodies that soonest_contacts() passes over?
-inline bool is_passed_over(const Sight& sight, double radius_min) {
-  return sight.unlike != 0 || !(sight.radius >= radius_min);
+inline bool is_passed_over(const Sight& sight, double size_min) {
+  return !(sight.size >= size_min);
 }
 
-/// Of the dynamic disks in a list with at least this radius, the soonest two contacts with the body
-/// of this slot, by soonest_contact(). REQUIRES: `list` is in memory up to the next multiple of
-/// four, and what stands there are slots of `sights`, whichever.
+/// Of the disks in a list that are like the rest and have at least this size, the soonest two
+/// contacts with the body of this slot, by soonest_contact(). REQUIRES: size_min >= 0; `list` is in
+/// memory up to the next multiple of four, and what stands there are slots of `sights`, whichever.
+template <class Common>
 SoonestTwo soonest_contacts(Slot slot,
                             std::span<const Slot> list,
                             const std::vector<Sight>& sights,
-                            double radius_min,
+                            double size_min,
                             double now,
-                            double slack);
+                            double slack,
+                            const Common& common);
 
 }  // namespace stoss::engine

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <vector>
 
 namespace stoss::engine {
@@ -26,46 +26,110 @@ bool interact(Slot a, Slot b) {
   return a != b && (role_of(a) == Role::DynamicDisk || role_of(b) == Role::DynamicDisk);
 }
 
-void expect_lists_of(const Neighbours& neighbours, const std::map<Slot, Aabb>& boxes) {
-  for (const auto& [slot, box] : boxes) {
+// Every dynamic disk knows all whom its box reaches, and nobody twice.
+void expect_neighbours(const Neighbours& neighbours, const std::vector<Slot>& slots) {
+  for (const Slot slot : slots) {
     if (role_of(slot) != Role::DynamicDisk) continue;
-    std::vector<Slot> expected;
-    for (const auto& [other, other_box] : boxes) {
-      if (interact(slot, other) && overlaps(box, other_box)) expected.push_back(other);
+    const auto span = neighbours.of(slot);
+    std::vector<Slot> known(span.begin(), span.end());
+    std::sort(known.begin(), known.end());
+    ASSERT_EQ(std::adjacent_find(known.begin(), known.end()), known.end()) << "of slot " << slot;
+    for (const Slot other : known) ASSERT_TRUE(interact(slot, other));
+    for (const Slot other : slots) {
+      if (!interact(slot, other)) continue;
+      if (!overlaps(neighbours.box_of(slot), neighbours.box_of(other))) continue;
+      ASSERT_TRUE(std::binary_search(known.begin(), known.end(), other))
+          << "slot " << slot << " does not know " << other;
     }
-    std::vector<Slot> list(neighbours.of(slot).begin(), neighbours.of(slot).end());
-    std::sort(list.begin(), list.end());
-    ASSERT_EQ(list, expected) << "of slot " << slot;
   }
 }
 
-TEST(Neighbours, ListsHoldAllNeighboursAndNobodyTwiceUnderRandomWork) {
+/// A body is as large whenever it is renewed.
+struct Body {
+  Aabb tight;
+  Glance here;
+};
+Body random_body(Random& random, Slot slot) {
+  const double x = random.uniform(-20, 20), y = random.uniform(-20, 20);
+  const double half = slot % 20 == 3 ? 15 : slot % 2 == 0 ? 0.8 : 0.1 * (1 + slot % 30);
+  const double length = role_of(slot) == Role::Wall ? random.uniform(0, 30) : 0;
+  Body body;
+  body.tight = {x - half, y - half, x + half + length, y + half};
+  body.here.x = x;
+  body.here.y = y;
+  return body;
+}
+
+void expect_everybody_known(bool in_cells) {
   Random random(test::seed_of_run());
   Neighbours neighbours;
-  std::map<Slot, Aabb> boxes;
+  std::vector<Slot> slots;
   for (int i = 0; i < 4'000; ++i) {
     const auto slot = static_cast<Slot>(random.below(kSlots));
-    if (boxes.contains(slot) && random.one_in(4)) {
+    const auto known = std::find(slots.begin(), slots.end(), slot);
+    if (known != slots.end() && random.one_in(4)) {
       neighbours.remove(slot);
-      boxes.erase(slot);
+      slots.erase(known);
     } else {
-      const double x = random.uniform(-20, 20), y = random.uniform(-20, 20);
-      const double half = random.one_in(20) ? 15 : random.uniform(0, 3);
-      const double length = role_of(slot) == Role::Wall ? random.uniform(0, 30) : 0;
-      const Aabb tight{x - half, y - half, x + half + length, y + half};
-      Glance here;
-      here.x = x;
-      here.y = y;
-      const double margin = random.uniform(0, 2);
-      neighbours.renew(slot, role_of(slot), tight, here, margin, [slot](Slot other) {
+      const Body body = random_body(random, slot);
+      if (known == slots.end()) slots.push_back(slot);
+      const Margin margin{random.uniform(0, 2), 1e-6, in_cells};
+      neighbours.renew(slot, role_of(slot), body.tight, body.here, margin, [slot](Slot other) {
         return interact(slot, other);
       });
-      boxes[slot] = grown(tight, margin);
-      EXPECT_EQ(neighbours.margin(slot), margin);
-      EXPECT_NEAR(neighbours.anchor(slot).x + neighbours.anchor(slot).x_low, x, 1e-13);
+      if (random.one_in(3)) neighbours.note_event(slot);
+      const auto [anchor, leeway] = neighbours.leeway(slot);
+      EXPECT_LE(std::abs(anchor.x + anchor.x_low - body.here.x), leeway + 1e-13);
+      EXPECT_LE(std::abs(anchor.y + anchor.y_low - body.here.y), leeway + 1e-13);
     }
-    expect_lists_of(neighbours, boxes);
+    ASSERT_NO_FATAL_FAILURE(expect_neighbours(neighbours, slots));
   }
+}
+
+TEST(Neighbours, AreAllKnownAndNobodyTwiceUnderRandomWork) {
+  expect_everybody_known(/*in_cells=*/true);
+}
+
+TEST(Neighbours, AreAllKnownWhereNobodyMayStandInCells) {
+  expect_everybody_known(/*in_cells=*/false);
+}
+
+// A disk that has only gone from one cell to the next is told whom it has not known before.
+TEST(Neighbours, NewcomersAreThoseThatWereNotKnown) {
+  Random random(test::seed_of_run());
+  Neighbours neighbours;
+  const auto renew = [&](Slot slot, double x, double y) {
+    Glance here;
+    here.x = x;
+    here.y = y;
+    neighbours.renew(slot,
+                     Role::DynamicDisk,
+                     {x - 0.5, y - 0.5, x + 0.5, y + 0.5},
+                     here,
+                     {0.5, 1e-6, true},
+                     [slot](Slot other) { return other != slot; });
+    neighbours.note_event(slot);
+  };
+  for (Slot slot = 0; slot < 60; ++slot) {
+    renew(slot, random.uniform(-5, 5), random.uniform(-5, 5));
+  }
+  int crossings = 0;
+  for (int i = 0; i < 2'000; ++i) {
+    const auto slot = static_cast<Slot>(random.below(60));
+    const auto before = neighbours.of(slot);
+    const std::vector<Slot> known(before.begin(), before.end());
+    const Neighbours::Anchor at = neighbours.leeway(slot).anchor;
+    renew(slot, at.x + random.uniform(-1.2, 1.2), at.y + random.uniform(-1.2, 1.2));
+    if (!neighbours.has_only_crossed()) continue;
+    ++crossings;
+    const auto newcomers = neighbours.newcomers(slot);
+    for (const Slot other : neighbours.of(slot)) {
+      const bool is_new = std::find(known.begin(), known.end(), other) == known.end();
+      const bool is_told = std::find(newcomers.begin(), newcomers.end(), other) != newcomers.end();
+      ASSERT_EQ(is_new, is_told);
+    }
+  }
+  EXPECT_GT(crossings, 1'000);
 }
 
 }  // namespace

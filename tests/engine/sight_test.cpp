@@ -83,7 +83,9 @@ TEST(Sight, SeesThatDisksRecedeOrPassBy) {
   EXPECT_EQ(soonest_contact(here, see(0.9, 0, -1, 0), 0, kScreenSlack<double>), 0);
 }
 
-TEST(Sight, FourAtATimeAreTheSameAsOneByOne) {
+/// Against soonest_contact(), for random sights and lists.
+template <class Common>
+void expect_four_at_a_time_as_one_by_one(const Common& common) {
   Random random(test::seed_of_run());
   const Epoch<double> epoch{{}, 8};
   std::vector<Sight> sights;
@@ -93,7 +95,7 @@ TEST(Sight, FourAtATimeAreTheSameAsOneByOne) {
     sights.push_back(sight_of(random_motion(random, {}, 0, 1), radius, type, epoch));
   }
   constexpr double kNow = 5;
-  constexpr double kRadiusMin = 0.01;
+  constexpr double kSizeMin = 0.01;
   for (int i = 0; i < 5'000; ++i) {
     const auto slot = static_cast<Slot>(random.below(sights.size()));
     std::vector<Slot> room(32);  // beyond the list, too, are slots
@@ -102,16 +104,17 @@ TEST(Sight, FourAtATimeAreTheSameAsOneByOne) {
     SoonestTwo expected;
     for (const Slot other : list) {
       const Sight& sight = sights[static_cast<std::size_t>(other)];
-      if (is_passed_over(sight, kRadiusMin)) {
+      if (is_passed_over(sight, kSizeMin)) {
         expected.has_others = true;
       } else {
         expected.note(
             other,
             soonest_contact(
-                sights[static_cast<std::size_t>(slot)], sight, kNow, kScreenSlack<double>));
+                sights[static_cast<std::size_t>(slot)], sight, kNow, kScreenSlack<double>, common));
       }
     }
-    const auto found = soonest_contacts(slot, list, sights, kRadiusMin, kNow, kScreenSlack<double>);
+    const auto found =
+        soonest_contacts(slot, list, sights, kSizeMin, kNow, kScreenSlack<double>, common);
     ASSERT_EQ(found.first, expected.first);
     ASSERT_EQ(found.second, expected.second);
     ASSERT_EQ(found.has_others, expected.has_others);
@@ -119,6 +122,44 @@ TEST(Sight, FourAtATimeAreTheSameAsOneByOne) {
       ASSERT_EQ(found.partner, expected.partner);
     }
   }
+}
+
+TEST(Sight, FourAtATimeAreTheSameAsOneByOne) {
+  expect_four_at_a_time_as_one_by_one(Steady{});
+  expect_four_at_a_time_as_one_by_one(Growing{0.25, 0.5});
+}
+
+// Images of one disk by which another is seen through a border, or many, are that disk.
+TEST(Sight, LooksAtTheNearestImage) {
+  Random random(test::seed_of_run());
+  const Epoch<double> epoch{{}, 8};
+  const Repeating<Steady> around{{}, 32, 64};
+  const Repeating<Steady> along_x{{}, 32, 0};
+  int meetings = 0;
+  for (int i = 0; i < 50'000; ++i) {
+    const Motion<double> a = random_motion(random, {}, 0, 1);
+    const Motion<double> b = random_motion(random, {}, 0, 1);
+    const double across_x = 32 * (static_cast<double>(random.below(2'000)) - 1'000);
+    const double across_y = 64 * (static_cast<double>(random.below(2'000)) - 1'000);
+    const auto seen_from_a = [&](double x, double y, const auto& common) {
+      const Motion<double> image{{b.position.x + x, b.position.y + y}, b.velocity, b.since};
+      return soonest_contact(sight_of(a, 0.3, BodyType::Dynamic, epoch),
+                             sight_of(image, 0.3, BodyType::Dynamic, epoch),
+                             5.0,
+                             kScreenSlack<double>,
+                             common);
+    };
+    const double plainly = seen_from_a(0, 0, Steady{});
+    const double across = seen_from_a(across_x, across_y, around);
+    if (plainly < kNever && across < kNever) {
+      ++meetings;
+      ASSERT_NEAR(across, plainly, 1e-4 * (1 + plainly));
+    }
+    ASSERT_EQ(seen_from_a(0, 0, around), plainly);
+    ASSERT_LE(across, exact_contact(a, b, 0.6, {5, 0}));
+    ASSERT_LE(seen_from_a(across_x, 0, along_x), exact_contact(a, b, 0.6, {5, 0}));
+  }
+  EXPECT_GT(meetings, 1'000);
 }
 
 TEST(Sight, AnInstantRoughlyLaterIsNotLaterThanThat) {

@@ -31,7 +31,7 @@ double Neighbours::next_margin(Slot slot) const {
   constexpr double kFew = 32;
   constexpr double kFoundWork = 2;
   const Place& place = grid_.place(slot);
-  const double beyond = std::max(0.0, static_cast<double>(place.list.size) - kFew);
+  const double beyond = std::max(0.0, static_cast<double>(lists_[index(slot)].size) - kFew);
   const double search = kSearchWork + kFoundWork * beyond;
   constexpr double kWorkMax = 0xffff;  // that is kept
   if (place.work < std::min(0.5 * search, kWorkMax)) return place.margin * kGrow;
@@ -39,49 +39,97 @@ double Neighbours::next_margin(Slot slot) const {
   return place.margin;
 }
 
-namespace {
-
-// Beyond 10^54 m the low words of a place are beyond a float. There the padding of the box, 8e-16
-// (of a wall's 4e-16) of its coordinates, stands for them: twice what was dropped joins the margin,
-// so that a body does not seem to have left its box when it has just been made.
-void drop_low_words_beyond_float(Place& place) {
-  if (std::isfinite(place.x_low) && std::isfinite(place.y_low)) return;
-  const double part = place.role == Role::Wall ? 2.5e-16 : 5e-16;
-  place.x_low = 0;
-  place.y_low = 0;
-  place.margin += part * std::max(std::abs(place.x), std::abs(place.y));
+Aabb Neighbours::put_in(Slot slot,
+                        Role role,
+                        const Aabb& tight,
+                        const Glance& here,
+                        const Margin& margin,
+                        bool in_cells) {
+  Tag& tag = tags_[index(slot)];
+  tag.role = role;
+  grid_.place(slot).work = 0;
+  if (role == Role::Wall) return stand_in_tree(slot, tight, here, margin.wanted);
+  if (in_cells) {
+    if (const auto box = stand_in_cell(slot, tight, margin.least)) return *box;
+  }
+  tag.flown = kFar;
+  return stand_in_grid(slot, tight, here, margin.wanted);
 }
 
-}  // namespace
+Aabb Neighbours::stand_in_tree(Slot slot, const Aabb& tight, const Glance& here, double margin) {
+  Place& place = grid_.place(slot);
+  place.x = here.x + here.x_low;
+  place.y = here.y + here.y_low;
+  place.margin = margin;
+  place.half = Extent::padded(margin, std::max(std::abs(place.x), std::abs(place.y)));
+  place.set_low((here.x - place.x) + here.x_low, (here.y - place.y) + here.y_low);
+  const Aabb box = grown(tight, margin);
+  tree_.insert(slot, box);
+  return box;
+}
 
-// Makes found_ the neighbours of `slot` in place of before_, in all lists. No mark is left.
+Aabb Neighbours::stand_in_grid(Slot slot, const Aabb& tight, const Glance& here, double margin) {
+  Place& place = grid_.place(slot);
+  grid_.insert(slot, tight, margin);
+  place.set_low((here.x - place.x) + here.x_low, (here.y - place.y) + here.y_low);
+  return grown(tight, margin);
+}
+
+std::optional<Aabb> Neighbours::stand_in_cell(Slot slot, const Aabb& tight, double least) {
+  const Extent extent(tight);
+  const double radius = std::max(extent.half_x, extent.half_y);
+  const auto cage = cells_.enter(slot, extent.x, extent.y, radius, least);
+  if (!cage) return std::nullopt;
+  return box_in(*cage, slot, extent);
+}
+
+// Where the disk may be while it stays in its cage.
+Aabb Neighbours::box_in(const DiskCells::Cage& cage, Slot slot, const Extent& tight) {
+  Place& place = grid_.place(slot);
+  place.x = cage.x;
+  place.y = cage.y;
+  place.margin = cage.half;
+  const double half = cage.half + std::max(tight.half_x, tight.half_y);
+  place.half = Extent::padded(half, std::max(std::abs(place.x), std::abs(place.y)));
+  place.set_low(0, 0);
+  return {place.x - half, place.y - half, place.x + half, place.y + half};
+}
+
+void Neighbours::take_out(Slot slot) {
+  if (cells_.contains(slot)) {
+    cells_.leave(slot);
+  } else if (grid_.contains(slot)) {
+    grid_.remove(slot);
+  } else {
+    tree_.remove(slot);
+  }
+}
+
+// Makes found_ the neighbours of `slot` in place of before_, in all lists. What has not changed is
+// not looked at. No mark is left.
 void Neighbours::replace_neighbours(Slot slot) {
-  Place& own = grid_.place(slot);
-  drop_low_words_beyond_float(own);
-  for (const Slot old : before_) grid_.place(old).is_marked = true;
+  const bool keeps = keeps_list(slot);
+  for (const Slot old : before_) tags_[index(old)].is_marked = true;
   for (const Slot other : found_) {
-    Place& place = grid_.place(other);
-    if (place.keeps_list()) {
-      // Of a body without a list, before_ may hold more than its neighbours.
-      if (place.is_marked && !own.keeps_list()) pool_.erase(place.list, slot);
-      if (!place.is_marked || !own.keeps_list()) pool_.push(place.list, slot);
-    }
-    place.is_marked = false;
+    const bool was_there = std::exchange(tags_[index(other)].is_marked, false);
+    if (!keeps_list(other) || (was_there && keeps)) continue;
+    PooledList& list = lists_[index(other)];
+    // Of a body without a list, before_ may hold more than its neighbours.
+    if (was_there) pool_.erase(list, slot);
+    pool_.push(list, slot);
   }
   for (const Slot old : before_) {
-    Place& place = grid_.place(old);
-    if (!place.is_marked) continue;
-    place.is_marked = false;
-    if (place.keeps_list()) pool_.erase(place.list, slot);
+    if (!std::exchange(tags_[index(old)].is_marked, false)) continue;
+    if (keeps_list(old)) pool_.erase(lists_[index(old)], slot);
   }
-  if (own.keeps_list()) pool_.assign(own.list, found_);
+  if (keeps) pool_.assign(lists_[index(slot)], found_);
 }
 
 // Takes a body whose box is out from all lists.
 void Neighbours::forget(Slot slot) {
   found_.clear();
   replace_neighbours(slot);
-  pool_.release(grid_.place(slot).list);
+  pool_.release(lists_[index(slot)]);
 }
 
 }  // namespace stoss::engine

@@ -11,26 +11,34 @@
 // The margin follows the work: a body that renews more often than it predicts gets a larger one, so
 // that a lone flyer's renewals become geometric in distance; a crowded one gets a smaller one.
 //
-// Disks stand in a grid, walls, which may be a thousand times longer than any of them, in a tree.
+// Most moving disks stand in cells with others of their size, and know each other from there
+// (disk_cells.hpp); their boxes are what their cages reach. The lists hold all other neighbours:
+// walls, fixed disks, and disks of another size. A disk that flies far undisturbed leaves the cells
+// for a box with a margin.
+//
+// Other disks stand in a grid, walls, which may be a thousand times longer than any, in a tree.
 // Bodies that are no dynamic disks keep no lists: a wall may have thousands of neighbours and is
 // asked for them only when it is commanded. They are searched for then.
 //
 // Source: near-neighbour lists with per-body updates, Donev, Torquato, Stillinger, J. Comput. Phys.
 // 202 (2005) 737. Deviation: boxes in a hierarchical grid, adaptive margins.
 //
-// Invariant: a body that keeps a list has every neighbour in it. No bit of a result depends on
-// boxes, margins or the order of lists.
+// Invariant: a body that keeps a list has every neighbour in it that it does not know from cells.
+// No bit of a result depends on boxes, margins or the order of lists.
 
 #include "body.hpp"
 #include "broad_phase/aabb_tree.hpp"
 #include "broad_phase/box_grid.hpp"
+#include "broad_phase/disk_cells.hpp"
 #include "broad_phase/list_pool.hpp"
 #include "broad_phase/place.hpp"
 #include "prefetch.hpp"
 #include "screen.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -38,12 +46,22 @@
 
 namespace stoss::engine {
 
+/// What a body is to the broad phase.
+enum class Role : std::uint8_t { Wall, FixedDisk, DynamicDisk };
+
 /// The copies of a box to look for: in open space itself.
 struct NoCopies {
   template <class Visit>
   void operator()(const Aabb& box, const Visit& visit) const {
     visit(box);
   }
+};
+
+/// How much larger a box shall be than its body, m.
+struct Margin {
+  double wanted = 0;
+  double least = 0;                 ///< that leaves the body time to cross it
+  bool may_stand_in_cells = false;  ///< of a dynamic disk whose radius stays: wanted or not
 };
 
 class Neighbours {
@@ -56,21 +74,72 @@ class Neighbours {
     double y_low = 0;
   };
 
-  /// REQUIRES: of a dynamic disk.
-  std::span<const Slot> of(Slot slot) const { return pool_.items(grid_.place(slot).list); }
+  /// All neighbours of a dynamic disk, followed in memory by three or more slots, whichever. Valid
+  /// until it was called for two others, or a box is renewed.
+  std::span<const Slot> of(Slot slot) const {
+    for (const Gathered& gathered : gathered_) {
+      if (gathered.slot == slot && gathered.renewals == renewals_) return gathered.span();
+    }
+    Gathered& oldest = gathered_[next_gathered_];
+    next_gathered_ = 1 - next_gathered_;
+    const auto list = list_of(slot);
+    Slot* to = std::copy(list.begin(), list.end(), room_in(oldest));
+    if (cells_.contains(slot)) to = cells_.collect_around(slot, to);
+    oldest.renewals = renewals_;
+    return ended(oldest, slot, to);
+  }
+  /// Calls visit(other) for each of them; `visit` may ask for neighbours itself, but renews none.
+  template <class Visit>
+  void for_each(Slot slot, const Visit& visit) const {
+    std::vector<Slot> found = std::exchange(spare_, {});
+    const auto all = of(slot);
+    found.assign(all.begin(), all.end());
+    for (const Slot other : found) visit(other);
+    spare_ = std::move(found);
+  }
+  /// After renew() of a disk: has it gone from one cell to the next, and found nobody new but
+  /// there?
+  bool has_only_crossed() const { return has_only_crossed_; }
+  /// As of(): whom it has as neighbours now and had not before. Valid until the next call.
+  /// REQUIRES: has_only_crossed().
+  std::span<const Slot> newcomers(Slot slot) const {
+    Slot* const to = room_in(newcomers_);
+    return ended(newcomers_, slot, cells_.collect_new_around(slot, crossed_from_, to));
+  }
   /// Asks for what of() and anchor() will read.
-  void prefetch_place(Slot slot) const { prefetch(&grid_.place(slot)); }
+  void prefetch_place(Slot slot) const {
+    prefetch(&lists_[index(slot)]);
+    if (cells_.contains(slot)) {
+      cells_.prefetch_block(slot);
+    } else {
+      prefetch(&grid_.place(slot));
+    }
+  }
   /// Asks for the list itself; its place should have come.
-  void prefetch_list(Slot slot) const { prefetch(of(slot).data()); }
-  double margin(Slot slot) const { return grid_.place(slot).margin; }
-  /// Where the body was when its box was made; in a periodic world, its image in the box.
-  Anchor anchor(Slot slot) const {
+  void prefetch_list(Slot slot) const {
+    if (cells_.contains(slot)) {
+      cells_.prefetch_around(slot);
+    } else {
+      prefetch(list_of(slot).data());
+    }
+  }
+  /// A square of half side `margin`, m, that the body's place may leave before its box is renewed.
+  struct Leeway {
+    Anchor anchor;
+    double margin = 0;
+  };
+  /// Around where the body was when its box was made (in a periodic world, its image in the box),
+  /// or around the middle of its cell.
+  Leeway leeway(Slot slot) const {
+    if (cells_.contains(slot)) {
+      const DiskCells::Cage cage = cells_.cage_of(slot);
+      return {{cage.x, cage.y, 0, 0}, cage.half};
+    }
     const Place& place = grid_.place(slot);
-    return {place.x, place.y, static_cast<double>(place.x_low), static_cast<double>(place.y_low)};
+    return {{place.x, place.y, place.x_low(), place.y_low()}, place.margin};
   }
   Aabb box_of(Slot slot) const {
-    const Place& place = grid_.place(slot);
-    return place.role == Role::Wall ? tree_.box_of(slot) : place.box();
+    return tags_[index(slot)].role == Role::Wall ? tree_.box_of(slot) : grid_.place(slot).box();
   }
 
   /// Makes the box of a body afresh: `tight` is its extent and `here` its place now.
@@ -81,39 +150,42 @@ class Neighbours {
              Role role,
              const Aabb& tight,
              const Glance& here,
-             double margin,
+             const Margin& margin,
              const Interacts& interacts,
              const Copies& copies = {}) {
     grid_.reserve(slot);
-    take_out(slot, copies);
-    Place& place = grid_.place(slot);
-    place.role = role;
-    place.work = 0;
-    const Aabb box = grown(tight, margin);
-    if (role == Role::Wall) {
-      place.x = here.x + here.x_low;
-      place.y = here.y + here.y_low;
-      place.margin = margin;
-      tree_.insert(slot, box);
-    } else {
-      grid_.insert(slot, tight, margin);
+    if (index(slot) >= tags_.size()) {
+      tags_.resize(index(slot) + 1);
+      lists_.resize(index(slot) + 1);
     }
-    place.x_low = static_cast<float>((here.x - place.x) + here.x_low);
-    place.y_low = static_cast<float>((here.y - place.y) + here.y_low);
-    find(slot, box, interacts, copies);
+    const std::optional<DiskCells::Cell> from = cell_of(slot);
+    const bool was_known = remember_neighbours(slot, copies);
+    if (!from || !cross(slot, tight, interacts, copies)) {
+      const bool in_cells = role == Role::DynamicDisk && margin.may_stand_in_cells &&
+                            (!was_known || suits_cells(slot, from.has_value(), margin.wanted));
+      if (was_known) take_out(slot);
+      const Aabb box = put_in(slot, role, tight, here, margin, in_cells);
+      find(slot, box, interacts, copies);
+    }
+    note_crossing(slot, from);
     replace_neighbours(slot);
+    ++renewals_;
   }
 
   template <class Copies = NoCopies>
   void remove(Slot slot, const Copies& copies = {}) {
-    take_out(slot, copies);
+    if (remember_neighbours(slot, copies)) take_out(slot);
     forget(slot);
+    ++renewals_;
   }
 
+  /// Notes that a body's motion has changed.
+  void note_event(Slot slot) { tags_[index(slot)].flown = 0; }
   /// Notes predictions made for a body since its last renewal.
   void note_work(Slot slot) {
+    if (cells_.contains(slot)) return;
     Place& place = grid_.place(slot);
-    const std::uint32_t work = place.work + place.list.size;
+    const std::uint32_t work = place.work + lists_[index(slot)].size;
     place.work = static_cast<std::uint16_t>(std::min(work, std::uint32_t{0xffff}));
   }
 
@@ -126,27 +198,120 @@ class Neighbours {
     std::vector<Slot> found = std::exchange(spare_, {});
     const auto in_grid = grid_.find(box);
     found.assign(in_grid.begin(), in_grid.end());
+    find_in_cells(box, DiskCells::kNoLevel, [&](Slot slot) { found.push_back(slot); });
     for (const Slot slot : found) visit(slot);
     spare_ = std::move(found);
     tree_.query(box, visit);
   }
 
  private:
+  /// Of each body; a byte or two, for a search reads many of them.
+  struct Tag {
+    Role role = Role::Wall;
+    bool is_marked = false;
+    std::uint8_t flown = 0;  ///< cells that it has crossed to since it last had an event, or kFar
+  };
+
+  /// Cells; chosen: a disk that flies farther without an event is in nobody's way.
+  static constexpr std::uint8_t kFar = 24;
+
+  static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
+  bool keeps_list(Slot slot) const { return tags_[index(slot)].role == Role::DynamicDisk; }
   static void keep_each_once(std::vector<Slot>& slots) {
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   }
 
-  // Whom the body has as neighbours with the box that it has now: found_.
+  std::span<const Slot> list_of(Slot slot) const { return pool_.items(lists_[index(slot)]); }
+  std::optional<DiskCells::Cell> cell_of(Slot slot) const {
+    if (!cells_.contains(slot)) return std::nullopt;
+    return cells_.cell_of(slot);
+  }
+  /// Neighbours in one piece of memory.
+  struct Gathered {
+    Slot slot = -1;  ///< whose; -1: nobody's
+    std::uint64_t renewals = 0;
+    std::size_t size = 0;
+    std::vector<Slot> slots;
+    std::span<const Slot> span() const { return {slots.data(), size}; }
+  };
+  // Memory for every body and a little more.
+  Slot* room_in(Gathered& gathered) const {
+    if (gathered.slots.size() < tags_.size() + 4) gathered.slots.resize(2 * tags_.size() + 4);
+    return gathered.slots.data();
+  }
+  // What was written there, ended with some slots.
+  static std::span<const Slot> ended(Gathered& gathered, Slot slot, Slot* to) {
+    std::fill_n(to, 3, slot);
+    gathered.slot = slot;
+    gathered.size = static_cast<std::size_t>(to - gathered.slots.data());
+    return gathered.span();
+  }
+  /// A disk that comes to another cell of its level. False, and nothing is done, where it should
+  /// stand elsewhere.
+  template <class Interacts, class Copies>
+  bool cross(Slot slot, const Aabb& tight, const Interacts& interacts, const Copies& copies) {
+    if (tags_[index(slot)].flown >= kFar) return false;
+    const Extent extent(tight);
+    const DiskCells::Cell from = cells_.cell_of(slot);
+    const auto cage = cells_.move(slot, extent.x, extent.y);
+    if (!cage) return false;
+    if (cage->cell != from) ++tags_[index(slot)].flown;
+    find(slot, box_in(*cage, slot, extent), interacts, copies);
+    return true;
+  }
+  // Whoever flies far without an event gets a box that grows, so that it is brought on the less
+  // often the farther it flies; until it has had one again, or too many to look at.
+  bool suits_cells(Slot slot, bool stands_in_one, double wanted) {
+    const Tag& tag = tags_[index(slot)];
+    if (stands_in_one) return tag.flown < kFar;
+    return tag.flown == 0 || wanted < grid_.place(slot).margin;
+  }
+  void note_crossing(Slot slot, const std::optional<DiskCells::Cell>& from) {
+    const std::optional<DiskCells::Cell> to = cell_of(slot);
+    has_only_crossed_ = from && to && from->level == to->level && found_.size() <= before_.size();
+    for (const Slot found : found_) {
+      if (!has_only_crossed_) return;
+      has_only_crossed_ = std::find(before_.begin(), before_.end(), found) != before_.end();
+    }
+    if (has_only_crossed_) crossed_from_ = *from;
+  }
+
+  // Each gives the box that others are looked for in.
+  Aabb put_in(Slot slot,
+              Role role,
+              const Aabb& tight,
+              const Glance& here,
+              const Margin& margin,
+              bool in_cells);
+  Aabb stand_in_tree(Slot slot, const Aabb& tight, const Glance& here, double margin);
+  Aabb stand_in_grid(Slot slot, const Aabb& tight, const Glance& here, double margin);
+  std::optional<Aabb> stand_in_cell(Slot slot, const Aabb& tight, double least);
+  Aabb box_in(const DiskCells::Cage& cage, Slot slot, const Extent& tight);
+
+  // Disks in cells whose boxes overlap this one.
+  template <class Visit>
+  void find_in_cells(const Aabb& box, std::int32_t but_for_level, const Visit& visit) const {
+    const Extent extent(box);
+    cells_.find(box, but_for_level, [&](Slot other) {
+      if (overlaps(grid_.place(other), extent)) visit(other);
+    });
+  }
+
+  // Whom the body has as neighbours with the box that it has now, but for those whom it knows from
+  // the cells: found_.
   template <class Interacts, class Copies>
   void find(Slot slot, const Aabb& box, const Interacts& interacts, const Copies& copies) {
-    const Place& own = grid_.place(slot);
+    const bool is_dynamic = keeps_list(slot);
+    const auto own_cell = cell_of(slot);
     found_.clear();
+    const auto consider = [&](Slot other) {
+      const bool both_dynamic = is_dynamic && keeps_list(other);
+      if (both_dynamic ? other != slot : interacts(other)) found_.push_back(other);
+    };
     copies(box, [&](const Aabb& copy) {
-      for (const Slot other : grid_.find(copy)) {
-        const bool are_dynamic = own.keeps_list() && grid_.place(other).keeps_list();
-        if (are_dynamic ? other != slot : interacts(other)) found_.push_back(other);
-      }
+      for (const Slot other : grid_.find(copy)) consider(other);
+      find_in_cells(copy, own_cell ? own_cell->level : DiskCells::kNoLevel, consider);
       tree_.query(copy, [&](Slot other) {
         if (interacts(other)) found_.push_back(other);
       });
@@ -154,37 +319,44 @@ class Neighbours {
     if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(found_);
   }
 
-  // Takes the box of a body out, if it has one, and remembers in before_ whom it has as neighbours.
+  // Remembers in before_ whom the body has in lists as neighbours. False if it has no box.
   template <class Copies>
-  void take_out(Slot slot, const Copies& copies) {
+  bool remember_neighbours(Slot slot, const Copies& copies) {
     before_.clear();
-    const bool in_grid = grid_.contains(slot);
-    if (!in_grid && !tree_.contains(slot)) return;
-    if (grid_.place(slot).keeps_list()) {
-      before_.assign(of(slot).begin(), of(slot).end());
-    } else {
-      copies(box_of(slot), [this](const Aabb& copy) {
-        for (const Slot other : grid_.find(copy)) {
-          if (grid_.place(other).keeps_list()) before_.push_back(other);
-        }
-      });
-      if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(before_);
+    if (!cells_.contains(slot) && !grid_.contains(slot) && !tree_.contains(slot)) return false;
+    if (keeps_list(slot)) {
+      before_.assign(list_of(slot).begin(), list_of(slot).end());
+      return true;
     }
-    if (in_grid) {
-      grid_.remove(slot);
-    } else {
-      tree_.remove(slot);
-    }
+    const auto remember = [this](Slot other) {
+      if (keeps_list(other)) before_.push_back(other);
+    };
+    copies(box_of(slot), [&](const Aabb& copy) {
+      for (const Slot other : grid_.find(copy)) remember(other);
+      find_in_cells(copy, DiskCells::kNoLevel, remember);
+    });
+    if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(before_);
+    return true;
   }
+  void take_out(Slot slot);
   void forget(Slot slot);
   void replace_neighbours(Slot slot);
 
-  BoxGrid grid_;  // of disks, and the places of all bodies
+  BoxGrid grid_;     // of disks, and the places of all bodies
+  DiskCells cells_;  // of disks that are not in the grid
   AabbTree tree_;
+  std::vector<Tag> tags_;
   ListPool pool_;
-  std::vector<Slot> before_;  // whom a body without a list had as neighbours, and a few more
+  std::vector<PooledList> lists_;  // of each body
+  std::vector<Slot> before_;       // whom a body without a list had as neighbours, and a few more
   std::vector<Slot> found_;
+  bool has_only_crossed_ = false;  // the body that was renewed last
+  DiskCells::Cell crossed_from_;
   mutable std::vector<Slot> spare_;  // its memory is used again
+  std::uint64_t renewals_ = 0;
+  mutable std::array<Gathered, 2> gathered_;  // by the last calls of of()
+  mutable std::size_t next_gathered_ = 0;
+  mutable Gathered newcomers_;
 };
 
 }  // namespace stoss::engine

@@ -1,37 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What the broad phase keeps of a body: one cache line, for a search reads many of them.
+// What the broad phase keeps of a body: one cache line.
 
 #include "broad_phase/aabb.hpp"
-#include "broad_phase/list_pool.hpp"
 
 #include <cmath>
 #include <cstdint>
 
 namespace stoss::engine {
 
-/// What a body is to the broad phase.
-enum class Role : std::uint8_t { Wall, FixedDisk, DynamicDisk };
-
 struct alignas(64) Place {
-  static constexpr std::int32_t kNone = -1;
-
   double x = 0;  ///< m, of the middle of a disk's box; where a wall's start was
   double y = 0;
-  double half = 0;    ///< m, from the middle of a disk's box to its sides
+  double half = 0;    ///< m, from the middle of a disk's box to its sides; of a wall the rounding
   double margin = 0;  ///< m, by how much the box is larger than the body was
-  float x_low = 0;    ///< m, from (x, y) to where the body itself was
-  float y_low = 0;
-  PooledList list;                ///< of neighbours
-  std::int32_t next = kNone;      ///< in the same cell of the grid
-  std::int32_t previous = kNone;  ///< kNone: the first of its cell
-  std::int32_t cell = kNone;      ///< kNone: not in the grid
-  std::uint16_t work = 0;         ///< predictions looked at since the last renewal, at most
-  Role role = Role::DynamicDisk;
-  bool is_marked = false;
+  float low_x = 0;    ///< of `half`: from (x, y) to where the body itself was
+  float low_y = 0;    ///< likewise; not in m, for those may be beyond the range of a float
+  std::uint16_t work = 0;  ///< predictions looked at since the last renewal, at most
 
-  bool keeps_list() const { return role == Role::DynamicDisk; }
+  double x_low() const { return static_cast<double>(low_x) * half; }  ///< m
+  double y_low() const { return static_cast<double>(low_y) * half; }  ///< m
+  /// `x`, `y`: m, at most `half`.
+  void set_low(double to_x, double to_y) {
+    low_x = half > 0 ? static_cast<float>(to_x / half) : 0.0F;
+    low_y = half > 0 ? static_cast<float>(to_y / half) : 0.0F;
+  }
   Aabb box() const { return {x - half, y - half, x + half, y + half}; }
 };
 static_assert(sizeof(Place) == 64);

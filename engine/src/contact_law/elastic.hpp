@@ -76,6 +76,37 @@ template <class S>
   return p;
 }
 
+/// normal_impulse() for p and u whose squares neither overflow nor underflow.
+template <class S, bool Always, class Gain>
+[[nodiscard, gnu::always_inline]] inline PairImpulse<S> normal_impulse_in_range(
+    const DoubleWord2<S>& p,
+    const DoubleWord2<S>& u,
+    S mass_a,
+    bool fixed_a,
+    S mass_b,
+    bool fixed_b,
+    const Gain& gain,
+    int by_speed) noexcept {
+  using std::sqrt;
+  PairImpulse<S> result;
+  const TripleWord<S> length2 = square_norm_in_three_words(p);
+  const S length = sqrt(length2.hi);
+  result.normal_x = p.x.hi / length;
+  result.normal_y = p.y.hi / length;
+  const DoubleWord<S> closing = dot(u, p);
+  if (!Always && sign(closing) >= 0) return result;
+  result.approach_speed = S(-to_scalar(closing) / length);
+  if (fixed_a && fixed_b) return result;
+
+  const DoubleWord<S> change = gain(closing, length2.two_words(), by_speed);
+  const Shares<S> k = shares_of_impulse(change, length2, mass_a, fixed_a, mass_b, fixed_b);
+  result.delta_a = p * k.a;
+  result.delta_b = -(p * k.b);
+  const S momentum = fixed_a ? S(mass_b * k.b.hi) : S(mass_a * k.a.hi);
+  result.impulse = S(-momentum * length);
+  return result;
+}
+
 /// The impulse along the normal that takes `gain(closing, p . p, by_speed)` from u . p, where
 /// closing = u . p < 0 before, and speeds are 1 / shifted(1, by_speed) m/s; see elastic_impulse for
 /// the rest. `Always`: also where the bodies do not approach.
@@ -87,30 +118,26 @@ template <class S, bool Always = false, class Gain>
                                                    S mass_b,
                                                    bool fixed_b,
                                                    const Gain& gain) noexcept {
-  using std::sqrt;
+  const DoubleWord2<S> p = unit_if_exact(contact_vector);
+  const DoubleWord2<S>& u = relative_velocity;
+  if (is_in_range(size_of(p)) && is_in_range(size_of(u))) [[likely]] {
+    return normal_impulse_in_range<S, Always>(p, u, mass_a, fixed_a, mass_b, fixed_b, gain, 0);
+  }
   // p cancels and u is linear in (1): both may be shifted into the range where squares are safe.
-  const DoubleWord2<S> direction = unit_if_exact(contact_vector);
-  const int by_length = steps_into_range(size_of(direction));
-  const int by_speed = steps_into_range(size_of(relative_velocity));
-  const DoubleWord2<S> p = shifted(direction, by_length);
-  const DoubleWord2<S> u = shifted(relative_velocity, by_speed);
-
-  PairImpulse<S> result;
-  const TripleWord<S> length2 = square_norm_in_three_words(p);
-  const S length = sqrt(length2.hi);
-  result.normal_x = p.x.hi / length;
-  result.normal_y = p.y.hi / length;
-  const DoubleWord<S> closing = dot(u, p);
-  if (!Always && sign(closing) >= 0) return result;
-  result.approach_speed = shifted(S(-to_scalar(closing) / length), -by_speed);
-  if (fixed_a && fixed_b) return result;
-
-  const DoubleWord<S> change = gain(closing, length2.two_words(), by_speed);
-  const Shares<S> k = shares_of_impulse(change, length2, mass_a, fixed_a, mass_b, fixed_b);
-  result.delta_a = shifted(p * k.a, -by_speed);
-  result.delta_b = shifted(-(p * k.b), -by_speed);
-  const S momentum = fixed_a ? S(mass_b * k.b.hi) : S(mass_a * k.a.hi);
-  result.impulse = shifted(S(-momentum * length), -by_speed);
+  const int by_speed = steps_into_range(size_of(u));
+  PairImpulse<S> result =
+      normal_impulse_in_range<S, Always>(shifted(p, steps_into_range(size_of(p))),
+                                         shifted(u, by_speed),
+                                         mass_a,
+                                         fixed_a,
+                                         mass_b,
+                                         fixed_b,
+                                         gain,
+                                         by_speed);
+  result.delta_a = shifted(result.delta_a, -by_speed);
+  result.delta_b = shifted(result.delta_b, -by_speed);
+  result.approach_speed = shifted(result.approach_speed, -by_speed);
+  result.impulse = shifted(result.impulse, -by_speed);
   return result;
 }
 

@@ -41,17 +41,14 @@ struct RelativeMotion {
 
 /// Relative position in metres at a duration, (1).
 template <class S>
-[[nodiscard]] inline DoubleWord2<S> displacement_at(const RelativeMotion<S>& motion,
-                                                    const Duration<S>& t) noexcept {
+[[nodiscard, gnu::always_inline]] inline DoubleWord2<S> displacement_at(
+    const RelativeMotion<S>& motion, const Duration<S>& t) noexcept {
   const DoubleWord2<S>& p = motion.position;
   const DoubleWord2<S>& v = motion.velocity;
   if constexpr (kCompensated<S>) {
-    if (t.lo == S(0)) return {p.x + v.x * t.hi, p.y + v.y * t.hi};
-    const DoubleWord<S> time{t.hi, t.lo};
-    return {p.x + v.x * time, p.y + v.y * time};
-  } else {
-    return {p.x + v.x * t.hi, p.y + v.y * t.hi};
+    if (t.lo != S(0)) return p + v * DoubleWord<S>{t.hi, t.lo};
   }
+  return p + v * t.hi;
 }
 
 namespace detail {
@@ -100,6 +97,11 @@ struct Range<float> {
   [[nodiscard]] static constexpr float step() noexcept { return 0x1p24f; }
 };
 
+template <class S>
+[[nodiscard]] constexpr bool is_in_range(const S& size) noexcept {
+  return size >= Range<S>::low() && size <= Range<S>::high();
+}
+
 /// x * step^count, by exact products (but for the last one, if the result is subnormal).
 template <class S>
 [[nodiscard]] inline S shifted(S x, int count) noexcept {
@@ -124,6 +126,8 @@ template <class S>
 /// The count for which shifted(size, count) lies in range; 0 for zero, infinity and NaN.
 template <class S>
 [[nodiscard]] inline int steps_into_range(S size) noexcept {
+  if (is_in_range(size)) [[likely]]
+    return 0;
   if (!(size > S(0)) || !is_finite(size)) return 0;
   int count = 0;
   for (; size > Range<S>::high(); --count) size = shifted(size, -1);

@@ -47,6 +47,7 @@ EFFECT_FILES = [
     "motion_law/thermostat.hpp",
     "periodic.hpp",
     "philox.hpp",
+    "sight_frames.hpp",
     "zone_passages.hpp",
 ]
 SECTION = re.compile(r"^Relocation section '\.rela\.text(?:\.unlikely|\.hot)?\.(_Z[^']+)'")

@@ -25,13 +25,23 @@ namespace stoss::engine {
 __extension__ using Int128 = __int128;
 __extension__ using Uint128 = unsigned __int128;
 
+struct Instant;
+constexpr Int128 ticks(const Instant& t);
+
 /// A point of simulated time: `seconds` + `fraction` * 2^-64 s, with 0 <= fraction / 2^64 < 1.
 /// Ordered, exact, 16 bytes.
 struct Instant {
   std::int64_t seconds = 0;
   std::uint64_t fraction = 0;
 
-  friend constexpr auto operator<=>(const Instant&, const Instant&) = default;
+  friend constexpr bool operator==(const Instant&, const Instant&) = default;
+  // As one number: which of two instants is later is a toss-up that no jump should hang on.
+  friend constexpr auto operator<=>(const Instant& a, const Instant& b) {
+    return ticks(a) <=> ticks(b);
+  }
+  friend constexpr bool operator<(const Instant& a, const Instant& b) {
+    return ticks(a) < ticks(b);
+  }
 
   /// Later than every event: what a body without an event is scheduled at.
   static constexpr Instant never() {
@@ -109,52 +119,67 @@ inline const S kTwo32 = power_of_two<S>(32);
 template <class S>
 inline const S kTwoMinus32 = power_of_two<S>(-32);
 
-}  // namespace detail
-
-namespace detail {
-
+/// A whole number of 2^-64 s, in seconds: rounded to hi, the rest rounded to lo.
 template <class S>
-Int128 whole_part(const S& x) {
-  return static_cast<Int128>(x);
+DoubleWord<S> to_seconds(Int128 n) {
+  static const S scale = power_of_two<S>(-64);
+  const S hi = static_cast<S>(n);
+  const S lo = static_cast<S>(n - static_cast<Int128>(hi));
+  return {hi * scale, lo * scale};
 }
 
-/// RN(n) and the rest, which is exact in a double for |n| < 2^106.
-inline DoubleWord<double> two_words(Int128 n) {
-  const Int128 high = n >> 32;
-  constexpr std::int64_t kExact = std::int64_t{1} << 53;
-  if (high < kExact && high >= -kExact) [[likely]] {  // both parts fit; RN is that of their sum
-    return quick_two_sum(static_cast<double>(static_cast<std::int64_t>(high)) * 0x1p32,
-                         static_cast<double>(static_cast<std::uint32_t>(n)));
+/// Seconds on the grid of 2^-64 s: the whole part of their number, towards zero, and the rest of
+/// it, exactly.
+template <class S>
+struct OnGrid {
+  Int128 whole;
+  S rest;
+};
+
+/// REQUIRES: |seconds| < 2^63.
+template <class S>
+OnGrid<S> on_grid(const S& seconds) {
+  static const S scale = power_of_two<S>(64);
+  const S n = seconds * scale;
+  const auto whole = static_cast<Int128>(n);
+  return {whole, n - static_cast<S>(whole)};
+}
+
+// The same for double without conversions of 128 bits where 32 of them and 64 will do.
+
+template <>
+[[gnu::always_inline]] inline DoubleWord<double> to_seconds<double>(Int128 n) {
+  constexpr std::int64_t kExact = std::int64_t{1} << 21;  // s; up to there n / 2^32 has 53 bits
+  const auto whole = static_cast<std::int64_t>(n >> 64);
+  if (whole < kExact && whole >= -kExact) [[likely]] {
+    return quick_two_sum(static_cast<double>(static_cast<std::int64_t>(n >> 32)) * 0x1p-32,
+                         static_cast<double>(static_cast<std::uint32_t>(n)) * 0x1p-64);
   }
   const auto hi = static_cast<double>(n);
-  return {hi, static_cast<double>(n - static_cast<Int128>(hi))};
+  return {hi * 0x1p-64, static_cast<double>(n - static_cast<Int128>(hi)) * 0x1p-64};
 }
 
-/// The whole part, towards zero. REQUIRES: |x| < 2^127.
-inline Int128 whole_part(double x) {
-  constexpr double kLargest = 0x1p94;
-  if (!(std::abs(x) < kLargest)) [[unlikely]]
-    return static_cast<Int128>(x);
-  const auto high = static_cast<std::int64_t>(x * 0x1p-32);
-  const double rest = x - static_cast<double>(high) * 0x1p32;  // exact, with the sign of x
-  return (static_cast<Int128>(high) << 32) + static_cast<std::int64_t>(rest);
+template <>
+[[gnu::always_inline]] inline OnGrid<double> on_grid<double>(const double& seconds) {
+  constexpr double kLargest = 0x1p30;  // s; below, seconds * 2^32 fits in 64 bits
+  if (!(std::abs(seconds) < kLargest)) [[unlikely]] {
+    const auto whole = static_cast<Int128>(seconds * 0x1p64);
+    return {whole, seconds * 0x1p64 - static_cast<double>(whole)};
+  }
+  const double coarse = seconds * 0x1p32;
+  const auto high = static_cast<std::int64_t>(coarse);
+  const double fine = (coarse - static_cast<double>(high)) * 0x1p32;  // exact, with their sign
+  const auto low = static_cast<std::int64_t>(fine);
+  return {(static_cast<Int128>(high) << 32) + low, fine - static_cast<double>(low)};
 }
 
 }  // namespace detail
 
 /// later - earlier in seconds: exact as an integer, rounded to hi, the rest rounded to lo.
 template <class S>
-DoubleWord<S> difference(const Instant& later, const Instant& earlier) {
-  const Int128 n = ticks(later) - ticks(earlier);
-  if constexpr (std::is_same_v<S, double>) {
-    const DoubleWord<double> words = detail::two_words(n);
-    return {words.hi * 0x1p-64, words.lo * 0x1p-64};
-  } else {
-    static const S scale = detail::power_of_two<S>(-64);
-    const S hi = static_cast<S>(n);
-    const S lo = static_cast<S>(n - static_cast<Int128>(hi));
-    return {hi * scale, lo * scale};
-  }
+[[gnu::always_inline]] inline DoubleWord<S> difference(const Instant& later,
+                                                       const Instant& earlier) {
+  return detail::to_seconds<S>(ticks(later) - ticks(earlier));
 }
 
 /// later - earlier in seconds, for an S of at least 64 digits: summed limb by limb from the least.
@@ -187,20 +212,21 @@ DoubleWord<S> difference(const WideInstant& later, const WideInstant& earlier) {
 /// `from` + hi + lo seconds, rounded once to the grid; nothing when that is beyond the end of time.
 /// REQUIRES: hi >= 0, |lo| <= ulp(hi).
 template <class S>
-std::optional<Instant> later_by(const Instant& from, const S& hi, const S& lo) {
-  static const S scale = detail::power_of_two<S>(64);
+[[gnu::always_inline]] inline std::optional<Instant> later_by(const Instant& from,
+                                                              const S& hi,
+                                                              const S& lo) {
   static const S limit = detail::power_of_two<S>(61);
   if (!(hi < limit)) return std::nullopt;
-  const S high = hi * scale;
-  const S low = lo * scale;
-  const Int128 high_whole = detail::whole_part(high);
-  const Int128 low_whole = detail::whole_part(low);
-  // Both rests are exact and within (-1, 1).
-  S rest = (high - static_cast<S>(high_whole)) + (low - static_cast<S>(low_whole));
-  Int128 n = ticks(from) + high_whole + low_whole;
-  for (; rest >= S(0.5); rest -= S(1)) n += 1;
-  for (; rest < S(-0.5); rest += S(1)) n -= 1;
-  const Instant result = instant_from_ticks(n);
+  detail::OnGrid<S> time = detail::on_grid(hi);
+  if (lo != S(0)) [[unlikely]] {
+    const detail::OnGrid<S> low = detail::on_grid(lo);
+    time.whole += low.whole;
+    time.rest += low.rest;  // both are exact and within (-1, 1)
+    for (; time.rest >= S(0.5); time.rest -= S(1)) time.whole += 1;
+    for (; time.rest < S(-0.5); time.rest += S(1)) time.whole -= 1;
+  }
+  time.whole += time.rest >= S(0.5) ? 1 : 0;
+  const Instant result = instant_from_ticks(ticks(from) + time.whole);
   if (!in_range(result)) return std::nullopt;
   return result;
 }

@@ -31,11 +31,11 @@ struct Motion {
 
 /// Equation (1) at an instant before or after `since`, as a double-word.
 template <class S>
-DoubleWord2<S> position_at(const Motion<S>& motion, const Time<S>& instant) {
+[[gnu::always_inline]] inline DoubleWord2<S> position_at(const Motion<S>& motion,
+                                                         const Time<S>& instant) {
   if (instant == motion.since) return motion.position;
   const DoubleWord<S> elapsed = difference<S>(instant, motion.since);
-  return {motion.position.x + motion.velocity.x * elapsed,
-          motion.position.y + motion.velocity.y * elapsed};
+  return motion.position + motion.velocity * elapsed;
 }
 
 namespace detail {

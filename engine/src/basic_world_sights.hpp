@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Predictions by sights (sight.hpp): what a body has before it is told by lower bounds, and kernels
+// are asked for what comes first when it is due.
+//
+// Alike are all dynamic disks that nothing but the world's law moves. Whatever else there is,
+// walls, zones, disks that rest or slide or keep their velocity against gravity or drag, is looked
+// at by screens and kernels.
+
+#include "basic_world.hpp"
+#include "prefetch.hpp"
+#include "screen.hpp"
+#include "sight_frames.hpp"
+
+#include <utility>
+
+namespace stoss::engine {
+
+/// Is this a world that predicts by sights? Floor friction slows every disk in a way of its own.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::has_sights() const {
+  if constexpr (Laws::kCurved) {
+    if (laws_.deceleration > S(0)) return false;
+  }
+  return !all_pairs();
+}
+
+// By sights: of what the body has before it, the soonest becomes its event as a guess, and a kernel
+// is asked when it is due; most guesses are overtaken by other contacts before. What is due at
+// once, and walls, are predicted closely.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
+  const SightClock clock = read_sight_clock();
+  const Sight& own = sights_.of_slot[index(slot)];
+  const double renewal = time_to_renewal(slot, own, clock);
+  Foresight ahead;
+  if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
+  if (at(slot).is_dynamic()) {
+    look_at_listed(slot, changed, clock, renewal, ahead);
+  } else {
+    for_each_neighbour(slot, [&](Slot other) {
+      bool holds = false;
+      if constexpr (!Laws::kPlain) holds = is_zone(other);  // a kinematic disk: its crossings
+      if (changed || holds) look_at_unlike(slot, other, changed, clock, renewal, ahead);
+    });
+  }
+  neighbours_.note_work(slot);
+  schedule(slot, ahead, renewal);
+}
+
+// A disk has crossed to another cell: what it had before it stands, and newcomers join. False if
+// that is not all, and it must be predicted from the beginning.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::foresee_newcomers(Slot slot, const Event<S>& crossing) {
+  if (!(crossing.until_guess >= 0) || !has_sights() || !neighbours_.has_only_crossed()) {
+    return false;
+  }
+  const SightClock clock = read_sight_clock();
+  Foresight ahead;
+  look_at_all(slot, neighbours_.newcomers(slot), /*smallest=*/0, clock, ahead);
+  ahead.standing = &crossing;
+  const auto first = static_cast<double>(crossing.until_guess);
+  ahead.note(crossing.partner, first);
+  ahead.note(crossing.partner, first + static_cast<double>(crossing.clear_for));
+  schedule(slot, ahead, time_to_renewal(slot, sights_.of_slot[index(slot)], clock));
+  return true;
+}
+
+// The neighbours of a dynamic disk.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::look_at_listed(
+    Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead) {
+  const Sight& own = sights_.of_slot[index(slot)];
+  const auto list = neighbours_.of(slot);
+  double smallest_held = own.size * (1.0 / kHolderRatioMax);
+  bool is_alone = false;  // in how it moves
+  if constexpr (!Laws::kPlain) is_alone = !is_like(own);
+  if (is_alone) {
+    smallest_held = std::numeric_limits<double>::infinity();
+    ahead.has_others = true;
+  } else {
+    look_at_all(slot, list, smallest_held, clock, ahead);
+  }
+  if (!ahead.has_others) return;
+  for (const Slot other : list) {
+    if (!is_passed_over(sights_.of_slot[index(other)], smallest_held)) continue;
+    look_at_unlike(slot, other, changed, clock, renewal, ahead);
+  }
+}
+
+// Of a disk that is like the rest: all others like it of at least a size.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::look_at_all(Slot slot,
+                                      std::span<const Slot> list,
+                                      double smallest,
+                                      const SightClock& clock,
+                                      Foresight& ahead) const {
+  static_cast<SoonestTwo&>(ahead) = soonest_of(slot, list, smallest, clock);
+  if constexpr (Laws::kCurved) {
+    ahead.first = seconds_of(ahead.first, clock);
+    ahead.second = seconds_of(ahead.second, clock);
+  }
+}
+
+/// Asks for all that a prediction of the body will look at: one wait instead of a dozen.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::prefetch_sights(Slot slot) const {
+  for (const Slot other : neighbours_.of(slot)) prefetch(&sights_.of_slot[index(other)]);
+}
+
+// A neighbour that is a wall, a zone, fixed, at rest, or a much smaller disk, which holds the pair
+// itself.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
+                                         Slot other,
+                                         bool changed,
+                                         const SightClock& clock,
+                                         double renewal,
+                                         Foresight& ahead) {
+  const Sight& own = sights_.of_slot[index(slot)];
+  const Sight& theirs = sights_.of_slot[index(other)];
+  const auto soonest = [&] { return seconds_of(soonest_seen(slot, other, clock), clock); };
+  if (is_like(own) && is_like(theirs)) {  // the other is much smaller
+    if (changed) offer(other, slot, soonest());
+    return;
+  }
+  const bool is_held = holds_prediction(slot, other);
+  if (!is_held && !changed) return;
+  if (see_each_other(slot, other)) {
+    return is_held ? ahead.note(other, soonest()) : offer(other, slot, soonest());
+  }
+  if (!is_held) return offer(other, slot, 0);
+  // Rather more than the bound of a guess: the guess may come later, but hardly so much.
+  constexpr double kBeyond = 1.25;
+  double horizon = std::min(renewal, kBeyond * ahead.first);
+  if (ahead.exact) horizon = std::min(horizon, horizon_of(*ahead.exact));
+  if (!may_meet(slot, glance_of(slot), other, horizon)) {
+    ahead.second = std::min(ahead.second, horizon);
+    return;
+  }
+  const auto event = event_with(slot, other);
+  if (event && (!ahead.exact || earlier(*event, slot, *ahead.exact, slot, id_lookup()))) {
+    ahead.exact = event;
+  }
+}
+
+/// Two disks whose sights say when they meet: where motions are curved or go around a period, two
+/// that are like the rest.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::see_each_other(Slot a, Slot b) const {
+  if (Laws::kCurved || is_periodic()) {
+    return is_like(sights_.of_slot[index(a)]) && is_like(sights_.of_slot[index(b)]);
+  }
+  return at(a).is_disk() && at(b).is_disk();
+}
+
+template <class S, class Laws>
+SoonestTwo BasicWorld<S, Laws>::soonest_of(Slot slot,
+                                           std::span<const Slot> list,
+                                           double smallest,
+                                           const SightClock& clock) const {
+  const auto soonest = [&](const auto& common) {
+    return soonest_contacts(
+        slot, list, sights_.of_slot, smallest, clock.now, kScreenSlack<S>, common);
+  };
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) {
+      return soonest(Repeating<Common>{common_to_sights(clock), space_.length_x, space_.length_y});
+    }
+  }
+  return soonest(common_to_sights(clock));
+}
+
+/// By the clock of sights from now on. REQUIRES: they see each other.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::soonest_seen(Slot a, Slot b, const SightClock& clock) const {
+  const auto soonest = [&](const auto& common) {
+    return soonest_contact(
+        sights_.of_slot[index(a)], sights_.of_slot[index(b)], clock.now, kScreenSlack<S>, common);
+  };
+  if constexpr (!Laws::kPlain) {
+    if (is_periodic()) {
+      return soonest(Repeating<Common>{common_to_sights(clock), space_.length_x, space_.length_y});
+    }
+  }
+  return soonest(common_to_sights(clock));
+}
+
+/// An event with the partner of what lies ahead, and nothing else. A guess that stood before may be
+/// out of date, and stays so.
+template <class S, class Laws>
+Event<S> BasicWorld<S, Laws>::guess_of(const Foresight& ahead) const {
+  Event<S> event;
+  event.partner = ahead.partner;
+  if (ahead.standing != nullptr && ahead.standing->partner == ahead.partner) {
+    event.partner_changes = ahead.standing->partner_changes;
+    event.partner_id = ahead.standing->partner_id;
+  } else {
+    event.partner_changes = at(ahead.partner).changes;
+    event.partner_id = at(ahead.partner).id;
+  }
+  return event;
+}
+
+// Makes the first of what lies ahead the body's event.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double renewal) {
+  constexpr double kNear = 1e-9;  // s; sooner, a guess would not be below the resolution of time
+  if (ahead.first < kNear) return predict_closely(slot, /*changed=*/false);
+  Event<S> next;
+  double limit = renewal;
+  if (ahead.exact) {
+    const double due = rough_seconds(ahead.exact->at, now_);
+    if (due < limit) next = *ahead.exact;
+    limit = std::min(limit, due);
+  }
+  if (ahead.first < limit) {
+    next = guess_of(ahead);
+    next.at = roughly_later(now_, ahead.first);
+    next.kind = EventKind::Guess;
+    next.clear_for = safe_difference(std::min(ahead.second, limit), ahead.first);
+  } else if (limit == renewal) {
+    next = ahead.exact || ahead.has_others ? Event<S>{} : guess_after(renewal, ahead);
+    next.at = roughly_later(now_, renewal);
+  }
+  queue_.set(slot, next, id_lookup());
+}
+
+/// A renewal that keeps what comes after it.
+template <class S, class Laws>
+Event<S> BasicWorld<S, Laws>::guess_after(double renewal, const Foresight& ahead) const {
+  const bool is_none = ahead.first == std::numeric_limits<double>::infinity();
+  if (ahead.partner < 0 && !is_none) return {};
+  Event<S> event;
+  if (ahead.partner >= 0) event = guess_of(ahead);
+  event.until_guess = safe_difference(ahead.first, renewal);
+  event.clear_for = safe_difference(ahead.second, ahead.first);
+  return event;
+}
+
+/// Seconds until the body leaves its box, or what its sight shows of the others ends, a little
+/// less; infinity if it never does.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::time_to_renewal(Slot slot,
+                                            const Sight& own,
+                                            const SightClock& clock) const {
+  constexpr double kEarly = 1 - 1e-6;
+  if (Laws::kCurved || is_periodic()) {
+    const double within = time_in_box(slot, glance_of(slot)) * kEarly;
+    return Laws::kCurved && is_like(own) ? std::min(within, clock.holds_for) : within;
+  }
+  const Neighbours::Leeway leeway = neighbours_.leeway(slot);
+  const Neighbours::Anchor& anchor = leeway.anchor;
+  double margin = leeway.margin * kEarly;
+  if (!(own.off < 1e-6 * margin)) {  // far from the origin
+    const Event<S> event = renewal_event(slot, glance_of(slot));
+    return event.at == Time<S>::never() ? std::numeric_limits<double>::infinity()
+                                        : rough_seconds(event.at, now_);
+  }
+  const double elapsed = clock.now - own.since;
+  const double growth = growth_of(slot);
+  if constexpr (Laws::kGrows) margin -= own.radius + growth * clock.now - at(slot).boxed_radius;
+  const double moved_x = (own.x + own.vx * elapsed) - (anchor.x + anchor.x_low);
+  const double moved_y = (own.y + own.vy * elapsed) - (anchor.y + anchor.y_low);
+  // Where a component is zero, so is its share: margin / 0 is infinite.
+  const auto after = [&](double moved, double v) {
+    const double way = margin - std::copysign(moved, moved * v);
+    if constexpr (Laws::kGrows) return way / (std::abs(v) + growth);
+    return way / std::abs(v);
+  };
+  return std::max(0.0, std::min(after(moved_x, own.vx), after(moved_y, own.vy)));
+}
+
+// A pair that `holder` holds has changed; it does not meet before `soonest`, s from now.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
+  const auto ids = id_lookup();
+  Event<S> theirs = queue_.event_of(holder);
+  const double horizon = horizon_of(theirs);
+  const bool may_be_first =
+      soonest < horizon && may_meet(changed, glance_of(changed), holder, horizon);
+  if (may_be_first) {
+    const auto event = event_with(holder, changed);
+    if (!event) return;
+    if (earlier(*event, holder, theirs, holder, ids)) {
+      queue_.set(holder, *event, ids);
+      return;
+    }
+    soonest = std::max(soonest, rough_seconds(event->at, now_));
+  }
+  if (theirs.kind == EventKind::NeighbourRenewal) {  // what is kept there is no longer all
+    if (theirs.until_guess >= 0) queue_.forget_guess(holder);
+    return;
+  }
+  if (theirs.kind != EventKind::Guess) return;
+  const float clear_for = safe_difference(soonest, horizon);
+  if (!(clear_for < theirs.clear_for)) return;
+  theirs.clear_for = clear_for;
+  queue_.set(holder, theirs, ids);
+}
+
+// The guess of a body has come up: asks the kernel.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::sharpen(Slot slot) {
+  const Event<S>& guess = queue_.event_of(slot);
+  const auto ask_for = [this](Slot own) {
+    prefetch_all(at(own));
+    neighbours_.prefetch_place(own);
+  };
+  ask_for(slot);
+  ask_for(guess.partner);
+  if (is_stale(guess)) return predict(slot, /*changed=*/false);
+  const std::optional<Contact> contact = contact_of(slot, guess.partner);
+  const auto event = contact ? event_of(*contact, guess.partner) : std::nullopt;
+  if (!event || !(rough_seconds(event->at, guess.at) < static_cast<double>(guess.clear_for))) {
+    return predict_closely(slot, /*changed=*/false);
+  }
+  neighbours_.prefetch_list(slot);
+  neighbours_.prefetch_list(guess.partner);
+  due_ = *contact;
+  due_slot_ = slot;
+  queue_.set(slot, *event, id_lookup());
+}
+
+/// The present as sights count it; takes them anew where their epoch is over.
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::read_sight_clock() -> SightClock {
+  ++sights_.uses;
+  double now = rough_seconds(now_, sights_.epoch.begin);
+  if (!(now <= sights_.epoch.length)) {
+    begin_epoch();
+    now = 0;
+  }
+  SightClock clock;
+  clock.now = now;
+  if constexpr (Laws::kDragged) {
+    const auto drag = detail::rough_drag_clock(now, static_cast<double>(laws_.drag));
+    clock.now = drag.run;
+    clock.left = drag.left;
+  }
+  if constexpr (Laws::kCurved) {
+    const bool is_pulled = !detail::is_zero(laws_.gravity);
+    if (is_pulled) clock.holds_for = kEpochsAhead * sights_.epoch.length - now;
+  }
+  return clock;
+}
+
+/// Takes all sights anew.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::begin_epoch() {
+  const std::uint64_t uses = std::exchange(sights_.uses, 0);
+  if constexpr (Laws::kCurved) {
+    double radii = 0;
+    std::size_t disks = 0;
+    for (const Sight& sight : sights_.of_slot) {
+      if (!is_like(sight)) continue;
+      radii += sight.radius;
+      ++disks;
+    }
+    const double mean = radii / static_cast<double>(std::max<std::size_t>(disks, 1));
+    sights_.epoch.renew(now_, uses, slots_.size(), fine_epoch(common_pull(), mean));
+  } else {
+    sights_.epoch.renew(now_, uses, slots_.size());
+  }
+  for (Slot slot = 0; index(slot) < bodies_.size(); ++slot) renew_sight(slot);
+}
+
+/// `run` as the clock of sights shows it from now on, or less, in seconds.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::seconds_of(double run, [[maybe_unused]] const SightClock& clock) const {
+  if constexpr (Laws::kDragged) {
+    run = least_time_of_run(run / clock.left, static_cast<double>(laws_.drag));
+  }
+  if constexpr (Laws::kCurved) run = std::min(run, clock.holds_for);
+  return run;
+}
+
+template <class S, class Laws>
+auto BasicWorld<S, Laws>::common_to_sights([[maybe_unused]] const SightClock& clock) const
+    -> Common {
+  if constexpr (Laws::kGrows) {
+    const double rate = 2 * static_cast<double>(laws_.growth);
+    return {rate * clock.now, rate};
+  } else {
+    return {};
+  }
+}
+
+/// What moves the disks that fall freely.
+template <class S, class Laws>
+CommonPull BasicWorld<S, Laws>::common_pull() const {
+  CommonPull pull;
+  if constexpr (Laws::kCurved) {
+    pull.x = detail::rough(laws_.gravity.x);
+    pull.y = detail::rough(laws_.gravity.y);
+  }
+  if constexpr (Laws::kDragged) pull.drag = static_cast<double>(laws_.drag);
+  return pull;
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::renew_sight(Slot slot) {
+  const Body<S, Laws>& body = at(slot);
+  Sight& sight = sights_.of_slot[index(slot)];
+  if constexpr (Laws::kCurved) {
+    sight = has_sights() && falls_freely(slot) ? sight_of_falling(slot) : Sight{};
+  } else if constexpr (Laws::kGrows) {
+    sight = growing_sight_of(
+        body.motion, body.radius, body.grown, growth_of(slot), body.type, sights_.epoch);
+  } else {
+    sight = sight_of(body.motion, body.radius, body.type, sights_.epoch);
+  }
+  if (!has_small_cage(slot)) sight.size = -1;
+}
+
+/// A dynamic disk that rests on nothing: gravity and drag alone move it.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::falls_freely(Slot slot) const {
+  if constexpr (Laws::kCurved) {
+    return at(slot).id != kNoId && at(slot).is_dynamic() && at(slot).support == kNoId;
+  } else {
+    return true;
+  }
+}
+
+/// Of a motion from before the epoch what is left of it at the beginning.
+template <class S, class Laws>
+Sight BasicWorld<S, Laws>::sight_of_falling(Slot slot) const {
+  const Time<S>& begin = sights_.epoch.begin;
+  const Body<S, Laws>& body = at(slot);
+  const CommonPull pull = common_pull();
+  if (!(body.motion.since < begin))
+    return falling_sight_of<S>(body.motion, body.radius, pull, {}, sights_.epoch);
+  const Motion<S> motion{position_of(slot, begin), velocity_of(slot, begin), begin};
+  const FlownBefore before =
+      flown_before(body.motion.velocity, pull, rough_seconds(begin, body.motion.since));
+  return falling_sight_of<S>(motion, body.radius, pull, before, sights_.epoch);
+}
+
+}  // namespace stoss::engine

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "broad_phase/cell_store.hpp"
+
+#include <utility>
+
+namespace stoss::engine {
+
+void CellStore::insert(std::int32_t item, const Cell& cell) {
+  if (index(item) >= links_.size()) links_.resize(index(item) + 1);
+  const Cell key{cell.x >> kBlockShift, cell.y >> kBlockShift, cell.level};
+  std::int32_t block = table_[entry_of(key)].block;
+  if (block == kNone) block = make_block(key);
+  Head& head = heads_[index(block)];
+  ++head.items;
+  const auto at = static_cast<std::size_t>((cell.y & (kBlockSide - 1)) * kBlockSide +
+                                           (cell.x & (kBlockSide - 1)));
+  links_[index(item)] = {
+      block * static_cast<std::int32_t>(kBlockCells) + static_cast<std::int32_t>(at), kNone};
+  std::int32_t* const places = &blocks_[index(block)].items[2 * at];
+  if (places[0] == kNone) {
+    places[0] = item;
+  } else if (places[1] == kNone) {
+    places[1] = item;
+  } else {
+    links_[index(item)].next = std::exchange(links_[index(places[1])].next, item);
+    head.crowded |= std::uint64_t{1} << at;
+  }
+}
+
+void CellStore::remove(std::int32_t item) {
+  const Link link = std::exchange(links_[index(item)], Link{});
+  const std::size_t block = index(link.cell) / kBlockCells;
+  const std::size_t at = index(link.cell) % kBlockCells;
+  Head& head = heads_[block];
+  std::int32_t* const places = &blocks_[block].items[2 * at];
+  if (places[0] == item) {  // the second takes its place, and the next of those behind the second's
+    places[0] = places[1];
+    places[1] = places[0] == kNone ? kNone : std::exchange(links_[index(places[0])].next, kNone);
+  } else if (places[1] == item) {
+    places[1] = link.next;
+  } else {
+    std::int32_t before = places[1];
+    while (links_[index(before)].next != item) before = links_[index(before)].next;
+    links_[index(before)].next = link.next;
+  }
+  if (places[1] == kNone || links_[index(places[1])].next == kNone) {
+    head.crowded &= ~(std::uint64_t{1} << at);
+  }
+  if (--head.items == 0) drop_block(static_cast<std::int32_t>(block));
+}
+
+std::int32_t* CellStore::collect_hanging(std::size_t block,
+                                         std::uint64_t cells,
+                                         std::int32_t but_for,
+                                         std::int32_t* to) const {
+  for_each_hanging(static_cast<std::int32_t>(block), cells, [&](std::int32_t item) {
+    if (item != but_for) *to++ = item;
+  });
+  return to;
+}
+
+std::int32_t* CellStore::collect_hanging_across(std::int32_t item, std::int32_t* to) const {
+  const std::int32_t own = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
+  const Head& head = heads_[index(own)];
+  const Cell cell = cell_of(item);
+  const Range cells{cell.x - 1, cell.y - 1, cell.x + 1, cell.y + 1};
+  for (std::int64_t by = cells.y0 >> kBlockShift; by <= cells.y1 >> kBlockShift; ++by) {
+    for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= cells.x1 >> kBlockShift; ++bx) {
+      const std::int32_t block = head.beside[beside(bx - head.key.x, by - head.key.y)];
+      if (block == kNone) continue;
+      const std::uint64_t crowded = heads_[index(block)].crowded & bits_of(part_of(cells, bx, by));
+      to = collect_hanging(index(block), crowded, item, to);
+    }
+  }
+  return to;
+}
+
+std::uint64_t CellStore::take_looks(std::int32_t level) {
+  std::uint64_t looks = 0;
+  for (const Entry& entry : table_) {
+    if (entry.block == kNone || entry.key.level != level) continue;
+    looks += std::exchange(heads_[index(entry.block)].looks, 0U);
+  }
+  return looks;
+}
+
+std::int32_t CellStore::make_block(const Cell& key) {
+  std::int32_t block;
+  if (free_blocks_.empty()) {
+    block = static_cast<std::int32_t>(blocks_.size());
+    blocks_.emplace_back();
+    heads_.emplace_back();
+  } else {
+    block = free_blocks_.back();
+    free_blocks_.pop_back();
+  }
+  blocks_[index(block)].items.fill(kNone);
+  heads_[index(block)] = {key, 0, 0, 0, {}};
+  if (2 * ++entries_ > table_.size()) grow_table();
+  table_[entry_of(key)] = {key, block};
+  link(block, block);
+  return block;
+}
+
+void CellStore::drop_block(std::int32_t block) {
+  link(block, kNone);
+  free_blocks_.push_back(block);
+  drop_entry(entry_of(heads_[index(block)].key));
+}
+
+// Makes a block known to those around it as `as`, and those to it.
+void CellStore::link(std::int32_t block, std::int32_t as) {
+  const Cell key = heads_[index(block)].key;
+  for (std::int64_t dy = -1; dy <= 1; ++dy) {
+    for (std::int64_t dx = -1; dx <= 1; ++dx) {
+      const std::int32_t other = table_[entry_of({key.x + dx, key.y + dy, key.level})].block;
+      heads_[index(block)].beside[beside(dx, dy)] = other;
+      if (other != kNone) heads_[index(other)].beside[beside(-dx, -dy)] = as;
+    }
+  }
+}
+
+void CellStore::grow_table() {
+  const std::vector<Entry> old = std::exchange(table_, std::vector<Entry>(2 * table_.size()));
+  --table_shift_;
+  for (const Entry& entry : old) {
+    if (entry.block != kNone) table_[entry_of(entry.key)] = entry;
+  }
+}
+
+// Closes the gap in its run of the table, so that no search stops too early.
+void CellStore::drop_entry(std::size_t hole) {
+  --entries_;
+  const std::size_t mask = table_.size() - 1;
+  for (std::size_t i = (hole + 1) & mask; table_[i].block != kNone; i = (i + 1) & mask) {
+    const auto home = static_cast<std::size_t>(hash_of(table_[i].key) >> table_shift_);
+    if (((i - home) & mask) < ((i - hole) & mask)) continue;
+    table_[hole] = table_[i];
+    hole = i;
+  }
+  table_[hole].block = kNone;
+}
+
+}  // namespace stoss::engine

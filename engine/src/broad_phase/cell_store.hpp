@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Items in square cells, found by the cells' numbers. A cell has places for two items, which are
+// read without a branch; the few that find both taken hang behind the second. Cells are kept in
+// blocks of eight by eight, behind a hash of the block's place: no world size, and empty space
+// costs nothing.
+//
+// Invariants: 1. a block in the table holds at least one item; 2. where a cell's second place is
+// empty nothing hangs behind it, and where the first is empty the second is.
+
+#include "prefetch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace stoss::engine {
+
+class CellStore {
+ public:
+  static constexpr std::int32_t kNone = -1;
+  static constexpr int kBlockShift = 3;
+  static constexpr std::int64_t kBlockSide = 1 << kBlockShift;  ///< in cells
+  static constexpr std::size_t kBlockCells = kBlockSide * kBlockSide;
+
+  /// A cell, by its numbers along the axes, among those of its level, which may be of any size.
+  struct Cell {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    std::int32_t level = 0;
+    friend bool operator==(const Cell&, const Cell&) = default;
+  };
+  struct Range {
+    std::int64_t x0 = 0;
+    std::int64_t y0 = 0;
+    std::int64_t x1 = 0;  ///< included
+    std::int64_t y1 = 0;
+  };
+
+  /// REQUIRES: in no cell.
+  void insert(std::int32_t item, const Cell& cell);
+  /// REQUIRES: in a cell.
+  void remove(std::int32_t item);
+  bool contains(std::int32_t item) const {
+    return index(item) < links_.size() && links_[index(item)].cell != kNone;
+  }
+  /// REQUIRES: in a cell.
+  Cell cell_of(std::int32_t item) const {
+    const std::size_t at = index(links_[index(item)].cell);
+    const Cell& block = heads_[at / kBlockCells].key;
+    const auto in_block = static_cast<std::int64_t>(at % kBlockCells);
+    return {block.x * kBlockSide + in_block % kBlockSide,
+            block.y * kBlockSide + in_block / kBlockSide,
+            block.level};
+  }
+
+  /// Asks for what collect_around() will read of an item's block, and then of the cells.
+  void prefetch_block(std::int32_t item) const {
+    prefetch(&heads_[index(links_[index(item)].cell) / kBlockCells]);
+  }
+  void prefetch_around(std::int32_t item) const {
+    const std::size_t cell = index(links_[index(item)].cell);
+    const std::size_t row = cell % kBlockCells / kBlockSide * kBlockSide;
+    const std::int32_t* const first = &blocks_[cell / kBlockCells].items[2 * row];
+    prefetch(first - 2 * kBlockSide);
+    prefetch(first);
+    prefetch(first + 2 * kBlockSide);
+  }
+
+  /// Writes all items but one that are in cells near it; returns where it has stopped. REQUIRES: in
+  /// a cell; the range lies within two cells of its own, on its level; room at `to` for all items
+  /// that there are and one more.
+  std::int32_t* collect_near(std::int32_t item, const Range& cells, std::int32_t* to) const {
+    const std::int32_t own = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
+    const Head& head = heads_[index(own)];
+    const std::int64_t by1 = cells.y1 >> kBlockShift, bx1 = cells.x1 >> kBlockShift;
+    for (std::int64_t by = cells.y0 >> kBlockShift; by <= by1; ++by) {
+      for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= bx1; ++bx) {
+        const std::int32_t block = head.beside[beside(bx - head.key.x, by - head.key.y)];
+        if (block != kNone) to = collect_in(index(block), part_of(cells, bx, by), item, to);
+      }
+    }
+    return to;
+  }
+
+  /// The same for the nine cells around its own.
+  std::int32_t* collect_around(std::int32_t item, std::int32_t* to) const {
+    const auto cell = static_cast<std::uint32_t>(links_[index(item)].cell);
+    const std::uint32_t at = cell % kBlockCells;
+    const std::uint32_t x = at % kBlockSide, y = at / kBlockSide;
+    if (x - 1 >= kBlockSide - 2 || y - 1 >= kBlockSide - 2) {
+      return collect_across(item, cell / kBlockCells, x, y, to);
+    }
+    const std::uint32_t corner = at - kBlockSide - 1;
+    const std::int32_t* const first = &blocks_[cell / kBlockCells].items[2 * corner];
+    const std::int32_t* const start = to;
+    to = take_some(first, kThree, item, to);
+    to = take_some(first + 2 * kBlockSide, kThree, item, to);
+    to = take_some(first + 4 * kBlockSide, kThree, item, to);
+    constexpr std::uint64_t kNineCells = 0x070707;
+    const Head& head = heads_[cell / kBlockCells];
+    head.looks += static_cast<std::uint32_t>(to - start);
+    const std::uint64_t crowded = head.crowded & (kNineCells << corner);
+    return crowded == 0 ? to : collect_hanging(cell / kBlockCells, crowded, item, to);
+  }
+
+  /// Calls visit(item) for all in cells of the range. `visit` changes nothing here.
+  template <class Visit>
+  void for_each(const Range& cells, std::int32_t level, const Visit& visit) const {
+    const std::int64_t by1 = cells.y1 >> kBlockShift, bx1 = cells.x1 >> kBlockShift;
+    for (std::int64_t by = cells.y0 >> kBlockShift; by <= by1; ++by) {
+      for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= bx1; ++bx) {
+        const std::int32_t block = table_[entry_of({bx, by, level})].block;
+        if (block != kNone) for_each_in(block, part_of(cells, bx, by), visit);
+      }
+    }
+  }
+
+  /// The same for all of a level.
+  template <class Visit>
+  void for_each(std::int32_t level, const Visit& visit) const {
+    for (const Entry& entry : table_) {
+      if (entry.block == kNone || entry.key.level != level) continue;
+      for_each_in(entry.block, {0, 0, kBlockSide - 1, kBlockSide - 1}, visit);
+    }
+  }
+
+  /// How many items collect_around() has written for those of a level, as far as is known, since
+  /// the last call for it.
+  std::uint64_t take_looks(std::int32_t level);
+  /// More than the cells that a search of all blocks looks at.
+  double cells_max() const { return static_cast<double>(kBlockCells * table_.size()); }
+
+  static std::int64_t floor_of(double x) {
+    const auto whole = static_cast<std::int64_t>(x);
+    return whole - (static_cast<double>(whole) > x ? 1 : 0);
+  }
+
+ private:
+  /// A place in the table; key and block in one, for a search reads both.
+  struct Entry {
+    Cell key;  ///< the block's numbers along the axes, and its level
+    std::int32_t block = kNone;
+  };
+  struct alignas(64) Head {
+    Cell key;                   ///< likewise
+    std::uint64_t crowded = 0;  ///< a bit for each cell with items behind its second
+    std::int32_t items = 0;
+    mutable std::uint32_t looks = 0;
+    std::array<std::int32_t, 9> beside;  ///< the blocks around it, itself in the middle
+  };
+  static std::size_t beside(std::int64_t dx, std::int64_t dy) {
+    return static_cast<std::size_t>(3 * dy + dx + 4);
+  }
+  struct alignas(64) Block {
+    std::array<std::int32_t, 2 * kBlockCells> items;
+  };
+  struct Link {
+    std::int32_t cell = kNone;
+    std::int32_t next = kNone;  ///< of the second in a cell, and of those behind it
+  };
+
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  static std::uint64_t hash_of(const Cell& key) {
+    std::uint64_t h = static_cast<std::uint64_t>(key.x) * 0x9e3779b97f4a7c15U;
+    h ^= static_cast<std::uint64_t>(key.y) * 0xc2b2ae3d27d4eb4fU;
+    h ^= static_cast<std::uint64_t>(key.level) * 0x165667b19e3779f9U;
+    return (h ^ (h >> 32)) * 0xd6e8feb86659fd93U;
+  }
+
+  /// The part of a range that lies in a block, counted from its corner. REQUIRES: there is one.
+  static Range part_of(const Range& cells, std::int64_t block_x, std::int64_t block_y) {
+    const std::int64_t x = block_x * kBlockSide, y = block_y * kBlockSide;
+    return {std::max(cells.x0 - x, std::int64_t{0}),
+            std::max(cells.y0 - y, std::int64_t{0}),
+            std::min(cells.x1 - x, kBlockSide - 1),
+            std::min(cells.y1 - y, kBlockSide - 1)};
+  }
+  /// The cells of such a part as bits.
+  static std::uint64_t bits_of(const Range& part) {
+    constexpr std::uint64_t kEveryRow = 0x0101010101010101U;
+    const std::uint64_t row = (0xffU >> (7 - part.x1)) & (0xffU << part.x0);
+    const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - part.y1)));
+    return row * kEveryRow & rows & (~std::uint64_t{0} << (8 * part.y0));
+  }
+
+  std::int32_t* collect_in(std::size_t block,
+                           const Range& part,
+                           std::int32_t but_for,
+                           std::int32_t* to) const {
+    const std::int32_t* row =
+        &blocks_[block].items[static_cast<std::size_t>(2 * (part.y0 * kBlockSide + part.x0))];
+    const auto width = static_cast<int>(2 * (part.x1 - part.x0 + 1));
+    for (std::int64_t y = part.y0; y <= part.y1; ++y, row += 2 * kBlockSide) {
+      to = take_some(row, width, but_for, to);
+    }
+    const std::uint64_t crowded = heads_[block].crowded & bits_of(part);
+    return crowded == 0 ? to : collect_hanging(block, crowded, but_for, to);
+  }
+
+  /// Two items a cell of three.
+  static constexpr std::integral_constant<int, 6> kThree{};
+  template <class Count>
+  static std::int32_t* take_some(const std::int32_t* from,
+                                 Count count,
+                                 std::int32_t but_for,
+                                 std::int32_t* to) {
+    for (int i = 0; i < count; ++i) {
+      const std::int32_t item = from[i];
+      *to = item;
+      to += static_cast<int>(item >= 0) & static_cast<int>(item != but_for);
+    }
+    return to;
+  }
+  // The nine cells around one at its block's edge.
+  std::int32_t* collect_across(std::int32_t item,
+                               std::size_t own,
+                               std::uint32_t x,
+                               std::uint32_t y,
+                               std::int32_t* to) const {
+    const Head& head = heads_[own];
+    const std::int32_t* const start = to;
+    const auto from = static_cast<std::int64_t>(x) - 1;
+    std::uint64_t crowded = 0;
+    for (std::int64_t row = static_cast<std::int64_t>(y) - 1; row <= y + std::int64_t{1}; ++row) {
+      const std::int64_t dy = row >> kBlockShift;
+      const auto at = 2 * (row & (kBlockSide - 1)) * kBlockSide;
+      const auto take = [&](std::int64_t dx, std::int64_t column, int count) {
+        const std::int32_t block = head.beside[beside(dx, dy)];
+        if (block == kNone) return;
+        crowded |= heads_[index(block)].crowded;
+        const std::int32_t* const first =
+            &blocks_[index(block)].items[static_cast<std::size_t>(at + 2 * column)];
+        to = take_some(first, count, item, to);
+      };
+      if (x == 0) {
+        take(-1, kBlockSide - 1, 2);
+        take(0, 0, 4);
+      } else if (x == kBlockSide - 1) {
+        take(0, from, 4);
+        take(1, 0, 2);
+      } else {
+        take(0, from, 6);
+      }
+    }
+    head.looks += static_cast<std::uint32_t>(to - start);
+    return crowded == 0 ? to : collect_hanging_across(item, to);
+  }
+  std::int32_t* collect_hanging_across(std::int32_t item, std::int32_t* to) const;
+  std::int32_t* collect_hanging(std::size_t block,
+                                std::uint64_t cells,
+                                std::int32_t but_for,
+                                std::int32_t* to) const;
+
+  template <class Visit>
+  void for_each_in(std::int32_t block, const Range& part, const Visit& visit) const {
+    for (std::int64_t y = part.y0; y <= part.y1; ++y) {
+      for (std::int64_t i = 2 * part.x0; i <= 2 * part.x1 + 1; ++i) {
+        const std::int32_t item =
+            blocks_[index(block)].items[static_cast<std::size_t>(2 * y * kBlockSide + i)];
+        if (item != kNone) visit(item);
+      }
+    }
+    for_each_hanging(block, heads_[index(block)].crowded & bits_of(part), visit);
+  }
+
+  /// Calls visit(item) for those behind the seconds of some cells.
+  template <class Visit>
+  void for_each_hanging(std::int32_t block, std::uint64_t cells, const Visit& visit) const {
+    for (; cells != 0; cells &= cells - 1) {
+      const auto cell = static_cast<std::size_t>(std::countr_zero(cells));
+      std::int32_t item = links_[index(blocks_[index(block)].items[2 * cell + 1])].next;
+      for (; item != kNone; item = links_[index(item)].next) visit(item);
+    }
+  }
+
+  /// The place of the key in the table, or where it would be.
+  std::size_t entry_of(const Cell& key) const {
+    for (std::size_t i = hash_of(key) >> table_shift_;; i = (i + 1) & (table_.size() - 1)) {
+      if (table_[i].block == kNone || table_[i].key == key) return i;
+    }
+  }
+  std::int32_t make_block(const Cell& key);
+  void drop_block(std::int32_t block);
+  void link(std::int32_t block, std::int32_t as);
+  void drop_entry(std::size_t hole);
+  void grow_table();
+
+  std::vector<Link> links_;  // of the items
+  std::vector<Block> blocks_;
+  std::vector<Head> heads_;  // of the blocks
+  std::vector<std::int32_t> free_blocks_;
+  std::vector<Entry> table_ = std::vector<Entry>(64);  // open addressing
+  std::size_t entries_ = 0;
+  int table_shift_ = 58;  // of a hash, for a place in the table
+};
+
+}  // namespace stoss::engine

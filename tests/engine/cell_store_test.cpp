@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Items in cells against a search through all of them.
+#include "broad_phase/cell_store.hpp"
+
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace stoss::engine {
+namespace {
+
+using test::Random;
+using Cell = CellStore::Cell;
+using Range = CellStore::Range;
+
+constexpr std::int32_t kItems = 400;
+
+/// Some crowd into few cells, some stand by themselves far away; on two levels.
+Cell random_cell(Random& random) {
+  const auto number = [&](int far) {
+    const auto near = static_cast<std::int64_t>(random.below(13)) - 6;
+    return random.one_in(10)
+               ? near * (std::int64_t{1} << random.below(static_cast<std::uint64_t>(far)))
+               : near;
+  };
+  return {number(40), number(40), static_cast<std::int32_t>(random.below(2))};
+}
+
+std::vector<std::int32_t> items_in(const std::map<std::int32_t, Cell>& cells,
+                                   const Range& range,
+                                   std::int32_t level,
+                                   std::int32_t but_for) {
+  std::vector<std::int32_t> items;
+  for (const auto& [item, cell] : cells) {
+    const bool is_in = cell.level == level && cell.x >= range.x0 && cell.x <= range.x1 &&
+                       cell.y >= range.y0 && cell.y <= range.y1;
+    if (is_in && item != but_for) items.push_back(item);
+  }
+  return items;
+}
+
+std::vector<std::int32_t> sorted(std::vector<std::int32_t> items) {
+  std::sort(items.begin(), items.end());
+  return items;
+}
+
+Range around(const Cell& cell, std::int64_t by) {
+  return {cell.x - by, cell.y - by, cell.x + by, cell.y + by};
+}
+
+void expect_found(const CellStore& store,
+                  const std::map<std::int32_t, Cell>& cells,
+                  std::int32_t item,
+                  const Range& near) {
+  const Cell& own = cells.at(item);
+  ASSERT_EQ(store.cell_of(item), own);
+  std::vector<std::int32_t> room(kItems + 1);
+  const auto written = [&room](const std::int32_t* end) {
+    return sorted(std::vector<std::int32_t>(room.cbegin(), room.cbegin() + (end - room.data())));
+  };
+  ASSERT_EQ(written(store.collect_around(item, room.data())),
+            items_in(cells, around(own, 1), own.level, item));
+  ASSERT_EQ(written(store.collect_near(item, near, room.data())),
+            items_in(cells, near, own.level, item));
+  std::vector<std::int32_t> visited;
+  store.for_each(near, own.level, [&](std::int32_t other) { visited.push_back(other); });
+  ASSERT_EQ(sorted(visited), items_in(cells, near, own.level, CellStore::kNone));
+}
+
+TEST(CellStore, FindsWhatStandsInCellsUnderRandomWork) {
+  Random random(test::seed_of_run());
+  CellStore store;
+  std::map<std::int32_t, Cell> cells;
+  for (int i = 0; i < 30'000; ++i) {
+    const auto item = static_cast<std::int32_t>(random.below(kItems));
+    ASSERT_EQ(store.contains(item), cells.contains(item));
+    if (cells.contains(item)) {
+      store.remove(item);
+      cells.erase(item);
+    }
+    if (random.one_in(4)) continue;
+    cells[item] = random_cell(random);
+    store.insert(item, cells[item]);
+    Range near = around(cells[item], static_cast<std::int64_t>(random.below(3)));
+    near.x0 += static_cast<std::int64_t>(random.below(2));
+    ASSERT_NO_FATAL_FAILURE(expect_found(store, cells, item, near));
+  }
+  for (std::int32_t level = 0; level < 2; ++level) {
+    std::vector<std::int32_t> visited;
+    store.for_each(level, [&](std::int32_t item) { visited.push_back(item); });
+    constexpr std::int64_t kAnywhere = std::int64_t{1} << 60;
+    ASSERT_EQ(sorted(visited), items_in(cells, around({}, kAnywhere), level, CellStore::kNone));
+  }
+}
+
+TEST(CellStore, CountsLooksByLevel) {
+  CellStore store;
+  store.insert(0, {0, 0, 5});
+  store.insert(1, {1, 0, 5});
+  store.insert(2, {0, 0, 6});
+  std::vector<std::int32_t> room(4);
+  store.collect_around(0, room.data());
+  store.collect_around(1, room.data());
+  EXPECT_EQ(store.take_looks(6), 0U);
+  EXPECT_EQ(store.take_looks(5), 2U);
+  EXPECT_EQ(store.take_looks(5), 0U);
+}
+
+}  // namespace
+}  // namespace stoss::engine
