@@ -135,8 +135,9 @@ class CellStore {
   /// More than the cells that a search of all blocks looks at.
   double cells_max() const { return static_cast<double>(kBlockCells * table_.size()); }
 
+  /// The largest whole number below; of one beyond 2^62, which no item's cell has, some such.
   static std::int64_t floor_of(double x) {
-    const auto whole = static_cast<std::int64_t>(x);
+    const auto whole = static_cast<std::int64_t>(std::clamp(x, -0x1p62, 0x1p62));
     return whole - (static_cast<double>(whole) > x ? 1 : 0);
   }
 

@@ -22,11 +22,11 @@ double balanced_by(double ratio) {
 }  // namespace
 
 std::optional<DiskCells::Cage> DiskCells::enter(
-    std::int32_t disk, double x, double y, double radius, double slowest) {
+    std::int32_t disk, double x, double y, double radius, double least) {
   Level* const level = level_for(radius);
   if (level == nullptr) return std::nullopt;
   const auto cage = cage_at(*level, x, y);
-  if (!cage || !(slowest < kBeyond * level->side)) {
+  if (!cage || !(least < kBeyond * level->side)) {
     if (level->items == 0) std::erase_if(levels_, [](const Level& l) { return l.items == 0; });
     return std::nullopt;
   }

@@ -58,9 +58,9 @@ class DiskCells {
   void prefetch_around(std::int32_t disk) const { store_.prefetch_around(disk); }
 
   /// Puts a disk in whose centre is at (x, y), off by less than 1e-10 of `radius`. None where cells
-  /// do not suit it: too far out for their numbers, or much larger than most. `slowest`: m, the
-  /// least that a cage should leave it to go. REQUIRES: not in.
-  std::optional<Cage> enter(std::int32_t disk, double x, double y, double radius, double slowest);
+  /// do not suit it: too far out for their numbers, or much larger than most. `least`: m, that
+  /// a cage should leave it to go. REQUIRES: not in.
+  std::optional<Cage> enter(std::int32_t disk, double x, double y, double radius, double least);
   /// Brings a disk to the cell where it is now, of its own level. None, and nothing is done, where
   /// it should enter() anew. REQUIRES: contained.
   std::optional<Cage> move(std::int32_t disk, double x, double y);

@@ -106,7 +106,7 @@ class Neighbours {
     Slot* const to = room_in(newcomers_);
     return ended(newcomers_, slot, cells_.collect_new_around(slot, crossed_from_, to));
   }
-  /// Asks for what of() and anchor() will read.
+  /// Asks for what of() and leeway() will read.
   void prefetch_place(Slot slot) const {
     prefetch(&lists_[index(slot)]);
     if (cells_.contains(slot)) {
@@ -237,7 +237,7 @@ class Neighbours {
   };
   // Memory for every body and a little more.
   Slot* room_in(Gathered& gathered) const {
-    if (gathered.slots.size() < tags_.size() + 4) gathered.slots.resize(2 * tags_.size() + 4);
+    if (gathered.slots.size() < tags_.size() + 4) gathered.slots.resize(tags_.size() + 4);
     return gathered.slots.data();
   }
   // What was written there, ended with some slots.
