@@ -5,13 +5,13 @@
 // earliest time at which it can meet another. A prediction reads these lines alone; the double
 // words are read when a contact is due.
 //
-//   x(t) = x + v (t - since)       t, since: seconds after the epoch of all sights (1) b = p.v,  c
-//   = p.p - d d,  D = (v.v) d d - (p x v)^2,  t >= c / (sqrt(D) - b)                  (2)
+//   (1) x(t) = x + v (t - since)       t, since: seconds after the epoch of all sights
+//   (2) b = p.v,  c = p.p - d d,  D = (v.v) d d - (p x v)^2,  t >= c / (sqrt(D) - b)
 //
 // p, v: relative position (m) and velocity (m/s) at t; d: the sum of the radii (m). Where all radii
 // grow by m/2 a second,
 //
-//   b = p.v - d m,  D = |d v - m p|^2 - (p x v)^2  (3)
+//   (3) b = p.v - d m,  D = |d v - m p|^2 - (p x v)^2
 //
 // and disks that recede meet too if |v| < m. What gravity and drag make straight: sight_frames.hpp.
 //

@@ -5,10 +5,10 @@
 // does, and by a clock that slows down as they do, each moves uniformly, and sight.hpp knows the
 // rest.
 //
-//   (1) gravity: x(t) - g t^2 / 2 = x' + v' (t - t0),  v' = v - g t0         t, t0: s after the
-//   epoch (2) drag: x(t) - g f(t) = x' + v' (s(t) - s(t0)),  v' = (v - g s(t0)) e^(m t0)
-//       s(t) = (1 - e^(-m t)) / m,  f(t) = (t - s(t)) / m                    m: rate of the drag,
-//       1/s
+//   (1) gravity: x(t) - g t^2 / 2 = x' + v' (t - t0),  v' = v - g t0
+//   (2) drag: x(t) - g f(t) = x' + v' (s(t) - s(t0)),  v' = (v - g s(t0)) e^(m t0)
+//       s(t) = (1 - e^(-m t)) / m,  f(t) = (t - s(t)) / m
+//       t, t0: s after the epoch's beginning; m: rate of the drag, 1/s
 //   (3) a run of s seconds by that clock lasts t = -log(1 - m s e^(m t1)) / m from t1 on
 //
 // x, v: place and velocity at t0; x' = x - g t0^2 / 2 or x - g f(t0).
