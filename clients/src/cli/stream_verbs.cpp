@@ -40,31 +40,34 @@ engine::BodyState state_of(const FrameBody& body, const engine::Instant& at) {
   return state;
 }
 
-/// Radii travel in frames where they grow; else the scene has them.
+/// Radii travel in frames where they grow; else the scene has them. It may come after the frames
+/// that it is wanted for, so a disk that it does not know yet is waited for, once in vain at most.
 class Radii {
  public:
-  explicit Radii(const Session& session) : feed_(session) {}
+  explicit Radii(const Session& session)
+      : feed_(session), timeout_(session.timeout()), patience_(timeout_) {}
   double operator()(engine::Id id) {
-    auto found = find(id);
-    if (found == disks_.end() || found->id != id) {
-      refresh();
-      found = find(id);
+    const SceneImage::DiskShape* disk = find(id);
+    const auto until = std::chrono::steady_clock::now() + patience_;
+    while (disk == nullptr && !interrupted()) {
+      refresh(patience_ > Milliseconds{0} ? kLook : Milliseconds{0});
+      disk = find(id);
+      if (std::chrono::steady_clock::now() >= until) break;
     }
-    return found == disks_.end() || found->id != id ? 0 : found->radius;
+    patience_ = disk == nullptr ? Milliseconds{0} : timeout_;
+    return disk == nullptr ? 0 : disk->radius;
   }
 
  private:
-  using Disks = std::vector<SceneImage::DiskShape>;
-
-  Disks::const_iterator find(engine::Id id) const {
-    return std::lower_bound(
+  const SceneImage::DiskShape* find(engine::Id id) const {
+    const auto found = std::lower_bound(
         disks_.begin(), disks_.end(), id, [](const SceneImage::DiskShape& disk, engine::Id wanted) {
           return disk.id < wanted;
         });
+    return found == disks_.end() || found->id != id ? nullptr : &*found;
   }
 
-  void refresh() {
-    const Milliseconds patience = disks_.empty() ? Milliseconds{1000} : Milliseconds{0};
+  void refresh(Milliseconds patience) {
     std::optional<SceneImage> scene = feed_.next(patience);
     if (!scene) return;
     disks_ = std::move(scene->disks);
@@ -73,7 +76,9 @@ class Radii {
   }
 
   SceneFeed feed_;
-  Disks disks_;
+  Milliseconds timeout_;
+  Milliseconds patience_;  ///< for the next disk that is not known
+  std::vector<SceneImage::DiskShape> disks_;
 };
 
 std::string frame_json(const Frame& frame, std::size_t head, Radii& radii) {
