@@ -112,16 +112,16 @@ class EventQueue {
   /// Sets the event of a slot; one that never comes leaves the queue. REQUIRES: admitted.
   template <class Ids>
   void set(std::int32_t slot, const Event<S>& event, const Ids& ids) {
-    const std::int32_t home = home_of(event.at);
+    const Filing filing = filing_of(event.at);
     Line& line = lines_[index(slot)];
-    if (home == kHeap && line.home == kHeap) {
+    if (filing.home == kHeap && line.home == kHeap) {
       line.event = event;
-      find_place(line.place, entry_of(slot), ids);
+      find_place(line.place, {filing.after, slot}, ids);
       return;
     }
     take_out(slot, ids);
     line.event = event;
-    put_in(slot, home, ids);
+    put_in(slot, filing, ids);
   }
 
   /// Of a renewal: what the body is to do then, it is to find out then.
@@ -159,34 +159,45 @@ class EventQueue {
 
   /// A slot in the heap, with its instant at hand.
   struct Entry {
-    Int128 at;  ///< bucket_ticks
+    std::uint64_t after;  ///< Filing::after
     std::int32_t slot;
+  };
+
+  /// Where an event belongs.
+  struct Filing {
+    std::int32_t home;
+    /// In the heap: time after the open bucket begins, in units so small that none of it is beyond
+    /// 64 bits; 0 for what is due before. No earlier event has more, so that equal ones alone have
+    /// to be looked at closely.
+    std::uint64_t after;
   };
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   Line& line(std::int32_t slot) { return lines_[index(slot)]; }
 
-  Entry entry_of(std::int32_t slot) const {
-    return {detail::bucket_ticks(event_of(slot).at), slot};
-  }
-
-  std::int32_t home_of(const Time<S>& at) const {
-    if (at == Time<S>::never()) return kAbsent;
-    const Int128 after = detail::bucket_ticks(at) - lap_start_;
-    if (after < open_end_) return kHeap;
-    if (after >= lap_length_) return kRest;
-    return static_cast<std::int32_t>(static_cast<std::int64_t>(after >> shift_));
+  [[gnu::always_inline]] inline Filing filing_of(const Time<S>& at) const {
+    if (at == Time<S>::never()) return {kAbsent, 0};
+    const Int128 after = detail::bucket_ticks(at) - open_start_;
+    if (after < width_) {
+      return {kHeap, after < 0 ? 0 : static_cast<std::uint64_t>(after >> coarseness_)};
+    }
+    if (after >= lap_left_) return {kRest, 0};
+    return {open_bucket_ + static_cast<std::int32_t>(static_cast<std::int64_t>(after >> shift_)),
+            0};
   }
 
   template <class Ids>
-  [[gnu::always_inline]] inline void put_in(std::int32_t slot, std::int32_t home, const Ids& ids) {
+  [[gnu::always_inline]] inline void put_in(std::int32_t slot,
+                                            const Filing& filing,
+                                            const Ids& ids) {
+    const std::int32_t home = filing.home;
     Line& entering = line(slot);
     entering.home = home;
     if (home == kAbsent) return;
     ++size_;
     if (home == kHeap) {
       if (index(heap_size_) == heap_.size()) heap_.resize(2 * heap_.size() + kHeapMin);
-      sift_up(heap_size_++, entry_of(slot), ids);
+      sift_up(heap_size_++, {filing.after, slot}, ids);
     } else if (home == kRest) {
       entering.place = static_cast<std::int32_t>(rest_.size());
       rest_.push_back(slot);
@@ -238,13 +249,13 @@ class EventQueue {
       const auto bucket = static_cast<std::int32_t>(
           word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word])));
       occupied_[word] &= occupied_[word] - 1;
-      open_end_ = (static_cast<Int128>(bucket) + 1) << shift_;
+      open(bucket);
       std::int32_t slot = buckets_[index(bucket)];
       buckets_[index(bucket)] = kNull;
       while (slot != kNull) {
         const std::int32_t next = line(slot).place;
         --size_;
-        put_in(slot, kHeap, ids);
+        put_in(slot, filing_of(event_of(slot).at), ids);
         slot = next;
       }
       const std::size_t released = index(heap_size_);
@@ -255,6 +266,13 @@ class EventQueue {
       return;
     }
     begin_lap(ids);
+  }
+
+  void open(std::int32_t bucket) {
+    const Int128 onwards = static_cast<Int128>(bucket - open_bucket_) << shift_;
+    open_bucket_ = bucket;
+    open_start_ += onwards;
+    lap_left_ -= onwards;
   }
 
   // Of the next two buckets: the nearer one's first slot is known by now, the other's is asked for.
@@ -310,16 +328,17 @@ class EventQueue {
       occupied_.assign(wanted / 64, 0);
     }
     shift_ = shift_for(first);
-    const Int128 width = static_cast<Int128>(1) << shift_;
-    lap_start_ = first;
-    lap_length_ = width * static_cast<Int128>(buckets_.size());
-    open_end_ = width;
+    coarseness_ = std::max(shift_ - 64, 0);
+    width_ = static_cast<Int128>(1) << shift_;
+    open_start_ = first;
+    open_bucket_ = 0;
+    lap_left_ = width_ * static_cast<Int128>(buckets_.size());
     first_word_ = 0;
     released_ = 0;
     refiled_.swap(rest_);
     rest_.clear();
     size_ -= refiled_.size();
-    for (const std::int32_t slot : refiled_) put_in(slot, home_of(event_of(slot).at), ids);
+    for (const std::int32_t slot : refiled_) put_in(slot, filing_of(event_of(slot).at), ids);
     refiled_.clear();
   }
 
@@ -343,8 +362,8 @@ class EventQueue {
 
   template <class Ids>
   bool before(const Entry& a, const Entry& b, const Ids& ids) const {
-    if (a.at != b.at) [[likely]]
-      return a.at < b.at;
+    if (a.after != b.after) [[likely]]
+      return a.after < b.after;
     return tie(a.slot, b.slot, ids);
   }
 
@@ -406,10 +425,13 @@ class EventQueue {
   std::vector<std::int32_t> rest_;
   std::vector<std::int32_t> refiled_;  // kept for its memory
 
-  Int128 lap_start_ = 0;   // in 2^-64 s
-  Int128 lap_length_ = 0;  // likewise, from there; 0 before the first lap
-  Int128 open_end_ = 0;
-  int shift_ = 0;  // the logarithm of a bucket's width in 2^-64 s
+  // In 2^-64 s. Before the first lap all events are in the rest.
+  Int128 open_start_ = -(static_cast<Int128>(1) << 126);
+  Int128 width_ = 0;     // of a bucket
+  Int128 lap_left_ = 0;  // from the open bucket's start
+  int shift_ = 0;        // the logarithm of the width
+  int coarseness_ = 0;   // of Filing::after
+  std::int32_t open_bucket_ = 0;
   std::size_t first_word_ = 0;
   std::size_t released_ = 0;  // events from buckets, in this lap
   std::int32_t upcoming_ = kNull;
