@@ -252,7 +252,8 @@ double BasicWorld<S, Laws>::time_to_renewal(Slot slot,
   const Neighbours::Leeway leeway = neighbours_.leeway(slot);
   const Neighbours::Anchor& anchor = leeway.anchor;
   double margin = leeway.margin * kEarly;
-  if (!(own.off < 1e-6 * margin)) [[unlikely]] return time_to_renewal_far_out(slot);
+  if (!(own.off < 1e-6 * margin)) [[unlikely]]
+    return time_to_renewal_far_out(slot);
   const double elapsed = clock.now - own.since;
   const double growth = growth_of(slot);
   if constexpr (Laws::kGrows) margin -= own.radius + growth * clock.now - at(slot).boxed_radius;

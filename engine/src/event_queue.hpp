@@ -112,9 +112,7 @@ class EventQueue {
 
   /// Sets the event of a slot; one that never comes leaves the queue. REQUIRES: admitted.
   template <class Ids>
-  [[gnu::always_inline]] inline void set(std::int32_t slot,
-                                         const Event<S>& event,
-                                         const Ids& ids) {
+  [[gnu::always_inline]] inline void set(std::int32_t slot, const Event<S>& event, const Ids& ids) {
     line(slot).event = event;
     refile(slot, ids);
   }
@@ -160,9 +158,9 @@ class EventQueue {
   /// Where an event belongs.
   struct Filing {
     std::int32_t home;
-    /// In the heap: time after the open bucket begins, in units so small that none of it is beyond
-    /// 64 bits; 0 for what is due before. No earlier event has more, so that equal ones alone have
-    /// to be looked at closely.
+    /// In the heap: how long after the open bucket begins, in 2^-64 s, or in the finest units with
+    /// which a bucket fits in 64 bits; 0 for what is due before. Never less for a later event, so
+    /// that only where two are equal the events themselves need to be compared.
     std::uint64_t after;
   };
 
@@ -180,8 +178,8 @@ class EventQueue {
             0};
   }
 
-  // After the event of a slot has changed. Whatever calls a function is the last to be done, so that
-  // nothing has to be kept meanwhile.
+  // After the event of a slot has changed. Whatever calls a function is the last to be done, so
+  // that nothing has to be kept meanwhile.
   template <class Ids>
   [[gnu::noinline]] void refile(std::int32_t slot, const Ids& ids) {
     Line& line = lines_[index(slot)];
