@@ -232,6 +232,7 @@ class BasicWorld final : public WorldCore {
   Event<S> guess_after(double renewal, const Foresight& ahead) const;
   void schedule(Slot slot, const Foresight& ahead, double renewal);
   double time_to_renewal(Slot slot, const Sight& own, const SightClock& clock) const;
+  double time_to_renewal_far_out(Slot slot) const;
   void offer(Slot holder, Slot changed, double soonest);
   void sharpen(Slot slot);
   bool has_guess(Slot slot) const { return queue_.event_of(slot).kind == EventKind::Guess; }
@@ -473,6 +474,7 @@ class BasicWorld final : public WorldCore {
   template <class Sink>
   void write_body(Sink& sink, Slot slot, const Effects& kind) const;
   void note_digest_stale(Slot slot);
+  void note_fresh_digest_stale(Slot slot);
   const char* read_bodies(ByteSource& source);
   void read_body(ByteSource& source, Id id, BodyType type);
   bool is_sound(Slot slot) const;

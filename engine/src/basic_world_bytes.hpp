@@ -81,8 +81,13 @@ std::vector<std::byte> BasicWorld<S, Laws>::bytes_for(const Effects& kind) const
 }
 
 template <class S, class Laws>
-void BasicWorld<S, Laws>::note_digest_stale(Slot slot) {
+[[gnu::always_inline]] inline void BasicWorld<S, Laws>::note_digest_stale(Slot slot) {
   if (index(slot) < digests_.is_stale.size() && digests_.is_stale[index(slot)] != 0) return;
+  note_fresh_digest_stale(slot);
+}
+
+template <class S, class Laws>
+[[gnu::noinline]] void BasicWorld<S, Laws>::note_fresh_digest_stale(Slot slot) {
   if (index(slot) >= digests_.of_slot.size()) {
     digests_.of_slot.resize(index(slot) + 1, 0);
     digests_.is_stale.resize(index(slot) + 1, 0);

@@ -113,7 +113,8 @@ bool BasicWorld<S, Laws>::is_stale(const Event<S>& event) const {
 // False if the event cannot be processed: the world stops before it.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
-  const Event<S> event = queue_.event_of(slot);
+  const Event<S>& event = queue_.event_of(slot);  // until the slot is given another
+  const Time<S> instant = event.at;
   const bool is_due = std::exchange(due_slot_, -1) == slot;
   if (event.kind == EventKind::NeighbourRenewal) {
     ++counters_.renewals;
@@ -124,13 +125,13 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   }
   if constexpr (!Laws::kPlain) {
     if (event.kind == EventKind::Kick) {
-      kick(slot, event.at);
+      kick(slot, instant);
       return true;
     }
   }
   if constexpr (Laws::kCurved) {
     if (event.partner < 0) {
-      process_own_event(slot, event.at);
+      process_own_event(slot, instant);
       return true;
     }
   }
@@ -140,7 +141,7 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   }
   if constexpr (!Laws::kPlain) {
     if (is_zone(event.partner)) {
-      process_crossing(slot, event, sink);
+      process_crossing(slot, Event<S>(event), sink);
       return true;
     }
   }
@@ -149,15 +150,15 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
     check(found.has_value(), "a scheduled contact is no contact of the stored motions");
     due_ = *found;
   }
-  check(event.at >= now_, "a contact was scheduled in the past");
-  if (has_stalled(event.at) || is_squeezed(due_)) return false;
+  check(instant >= now_, "a contact was scheduled in the past");
+  if (has_stalled(instant) || is_squeezed(due_)) return false;
   count_towards_stall();
   if (has_sights()) {
     for (const Slot own : {due_.a, due_.b}) {
       if (at(own).is_dynamic()) prefetch_sights(own);
     }
   }
-  resolve(due_, event.at, sink);
+  resolve(due_, instant, sink);
   if (!at(slot).is_dynamic()) predict(slot, /*changed=*/false);
   return true;
 }

@@ -208,23 +208,22 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double renewal) {
   constexpr double kNear = 1e-9;  // s; sooner, a guess would not be below the resolution of time
   if (ahead.first < kNear) return predict_closely(slot, /*changed=*/false);
-  Event<S> next;
   double limit = renewal;
-  if (ahead.exact) {
-    const double due = rough_seconds(ahead.exact->at, now_);
-    if (due < limit) next = *ahead.exact;
-    limit = std::min(limit, due);
-  }
+  if (ahead.exact) limit = std::min(limit, rough_seconds(ahead.exact->at, now_));
   if (ahead.first < limit) {
-    next = guess_of(ahead);
+    Event<S> next = guess_of(ahead);
     next.at = roughly_later(now_, ahead.first);
     next.kind = EventKind::Guess;
     next.clear_for = safe_difference(std::min(ahead.second, limit), ahead.first);
+    queue_.set(slot, next, id_lookup());
   } else if (limit == renewal) {
-    next = ahead.exact || ahead.has_others ? Event<S>{} : guess_after(renewal, ahead);
+    Event<S> next;
+    if (!ahead.exact && !ahead.has_others) next = guess_after(renewal, ahead);
     next.at = roughly_later(now_, renewal);
+    queue_.set(slot, next, id_lookup());
+  } else {
+    queue_.set(slot, *ahead.exact, id_lookup());
   }
-  queue_.set(slot, next, id_lookup());
 }
 
 /// A renewal that keeps what comes after it.
@@ -253,11 +252,8 @@ double BasicWorld<S, Laws>::time_to_renewal(Slot slot,
   const Neighbours::Leeway leeway = neighbours_.leeway(slot);
   const Neighbours::Anchor& anchor = leeway.anchor;
   double margin = leeway.margin * kEarly;
-  if (!(own.off < 1e-6 * margin)) {  // far from the origin
-    const Event<S> event = renewal_event(slot, glance_of(slot));
-    return event.at == Time<S>::never() ? std::numeric_limits<double>::infinity()
-                                        : rough_seconds(event.at, now_);
-  }
+  if (!(own.off < 1e-6 * margin)) [[unlikely]]
+    return time_to_renewal_far_out(slot);
   const double elapsed = clock.now - own.since;
   const double growth = growth_of(slot);
   if constexpr (Laws::kGrows) margin -= own.radius + growth * clock.now - at(slot).boxed_radius;
@@ -270,6 +266,14 @@ double BasicWorld<S, Laws>::time_to_renewal(Slot slot,
     return way / std::abs(v);
   };
   return std::max(0.0, std::min(after(moved_x, own.vx), after(moved_y, own.vy)));
+}
+
+/// The same far from the origin, where a sight is too coarse.
+template <class S, class Laws>
+[[gnu::noinline, gnu::cold]] double BasicWorld<S, Laws>::time_to_renewal_far_out(Slot slot) const {
+  const Event<S> event = renewal_event(slot, glance_of(slot));
+  return event.at == Time<S>::never() ? std::numeric_limits<double>::infinity()
+                                      : rough_seconds(event.at, now_);
 }
 
 // A pair that `holder` holds has changed; it does not meet before `soonest`, s from now.
@@ -325,10 +329,10 @@ void BasicWorld<S, Laws>::sharpen(Slot slot) {
 
 /// The present as sights count it; takes them anew where their epoch is over.
 template <class S, class Laws>
-auto BasicWorld<S, Laws>::read_sight_clock() -> SightClock {
+[[gnu::always_inline]] inline auto BasicWorld<S, Laws>::read_sight_clock() -> SightClock {
   ++sights_.uses;
   double now = rough_seconds(now_, sights_.epoch.begin);
-  if (!(now <= sights_.epoch.length)) {
+  if (!(now <= sights_.epoch.length)) [[unlikely]] {
     begin_epoch();
     now = 0;
   }
@@ -348,7 +352,7 @@ auto BasicWorld<S, Laws>::read_sight_clock() -> SightClock {
 
 /// Takes all sights anew.
 template <class S, class Laws>
-void BasicWorld<S, Laws>::begin_epoch() {
+[[gnu::noinline]] void BasicWorld<S, Laws>::begin_epoch() {
   const std::uint64_t uses = std::exchange(sights_.uses, 0);
   if constexpr (Laws::kCurved) {
     double radii = 0;

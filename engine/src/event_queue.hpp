@@ -27,6 +27,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace stoss::engine {
@@ -111,17 +112,9 @@ class EventQueue {
 
   /// Sets the event of a slot; one that never comes leaves the queue. REQUIRES: admitted.
   template <class Ids>
-  void set(std::int32_t slot, const Event<S>& event, const Ids& ids) {
-    const std::int32_t home = home_of(event.at);
-    Line& line = lines_[index(slot)];
-    if (home == kHeap && line.home == kHeap) {
-      line.event = event;
-      find_place(line.place, entry_of(slot), ids);
-      return;
-    }
-    take_out(slot, ids);
-    line.event = event;
-    put_in(slot, home, ids);
+  [[gnu::always_inline]] inline void set(std::int32_t slot, const Event<S>& event, const Ids& ids) {
+    line(slot).event = event;
+    refile(slot, ids);
   }
 
   /// Of a renewal: what the body is to do then, it is to find out then.
@@ -129,8 +122,7 @@ class EventQueue {
 
   template <class Ids>
   void erase(std::int32_t slot, const Ids& ids) {
-    take_out(slot, ids);
-    lines_[index(slot)].event = Event<S>{};
+    set(slot, Event<S>{}, ids);
   }
 
  private:
@@ -159,74 +151,101 @@ class EventQueue {
 
   /// A slot in the heap, with its instant at hand.
   struct Entry {
-    Int128 at;  ///< bucket_ticks
+    std::uint64_t after;  ///< Filing::after
     std::int32_t slot;
+  };
+
+  /// Where an event belongs.
+  struct Filing {
+    std::int32_t home;
+    /// In the heap: how long after the open bucket begins, in 2^-64 s, or in the finest units with
+    /// which a bucket fits in 64 bits; 0 for what is due before. Never less for a later event, so
+    /// that only where two are equal the events themselves need to be compared.
+    std::uint64_t after;
   };
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   Line& line(std::int32_t slot) { return lines_[index(slot)]; }
 
-  Entry entry_of(std::int32_t slot) const {
-    return {detail::bucket_ticks(event_of(slot).at), slot};
+  [[gnu::always_inline]] inline Filing filing_of(const Time<S>& at) const {
+    if (at == Time<S>::never()) return {kAbsent, 0};
+    const Int128 after = detail::bucket_ticks(at) - open_start_;
+    if (after < width_) {
+      return {kHeap, after < 0 ? 0 : static_cast<std::uint64_t>(after >> coarseness_)};
+    }
+    if (after >= lap_left_) return {kRest, 0};
+    return {open_bucket_ + static_cast<std::int32_t>(static_cast<std::int64_t>(after >> shift_)),
+            0};
   }
 
-  std::int32_t home_of(const Time<S>& at) const {
-    if (at == Time<S>::never()) return kAbsent;
-    const Int128 after = detail::bucket_ticks(at) - lap_start_;
-    if (after < open_end_) return kHeap;
-    if (after >= lap_length_) return kRest;
-    return static_cast<std::int32_t>(static_cast<std::int64_t>(after >> shift_));
-  }
-
+  // After the event of a slot has changed. Whatever calls a function is the last to be done, so
+  // that nothing has to be kept meanwhile.
   template <class Ids>
-  [[gnu::always_inline]] inline void put_in(std::int32_t slot, std::int32_t home, const Ids& ids) {
+  [[gnu::noinline]] void refile(std::int32_t slot, const Ids& ids) {
+    Line& line = lines_[index(slot)];
+    const std::int32_t from = line.home;
+    const std::int32_t place = line.place;
+    if (from >= 0) {
+      unlink(line);
+    } else if (from == kRest) {
+      close_gap_in_rest(place);
+    } else if (from == kAbsent) {
+      ++size_;
+    }
+    const Filing to = filing_of(line.event.at);
+    line.home = to.home;
+    if (to.home == kHeap) {
+      return from == kHeap ? find_place(place, {to.after, slot}, ids) : push({to.after, slot}, ids);
+    }
+    if (to.home == kRest) return from == kHeap ? postpone(slot, place, ids) : add_to_rest(slot);
+    if (to.home == kAbsent) {
+      --size_;
+    } else {
+      link(slot);
+    }
+    if (from == kHeap) close_gap(place, ids);
+  }
+
+  // Of the bucket that is its home.
+  [[gnu::always_inline]] inline void link(std::int32_t slot) {
     Line& entering = line(slot);
-    entering.home = home;
-    if (home == kAbsent) return;
-    ++size_;
-    if (home == kHeap) {
-      if (index(heap_size_) == heap_.size()) heap_.resize(2 * heap_.size() + kHeapMin);
-      sift_up(heap_size_++, entry_of(slot), ids);
-    } else if (home == kRest) {
-      entering.place = static_cast<std::int32_t>(rest_.size());
-      rest_.push_back(slot);
-    } else {
-      std::int32_t& head = buckets_[index(home)];
-      entering.place = head;
-      entering.previous = kNull;
-      if (head != kNull) line(head).previous = slot;
-      head = slot;
-      occupied_[index(home) / 64] |= std::uint64_t{1} << (index(home) % 64);
+    const std::size_t home = index(entering.home);
+    std::int32_t& head = buckets_[home];
+    entering.place = head;
+    entering.previous = kNull;
+    if (head != kNull) line(head).previous = slot;
+    head = slot;
+    occupied_[home / 64] |= std::uint64_t{1} << (home % 64);
+  }
+
+  [[gnu::always_inline]] inline void unlink(const Line& leaving) {
+    if (leaving.place != kNull) line(leaving.place).previous = leaving.previous;
+    if (leaving.previous != kNull) {
+      line(leaving.previous).place = leaving.place;
+      return;
     }
+    const std::size_t home = index(leaving.home);
+    buckets_[home] = leaving.place;
+    if (leaving.place == kNull) occupied_[home / 64] &= ~(std::uint64_t{1} << (home % 64));
+  }
+
+  [[gnu::noinline]] void add_to_rest(std::int32_t slot) {
+    line(slot).home = kRest;
+    line(slot).place = static_cast<std::int32_t>(rest_.size());
+    rest_.push_back(slot);
   }
 
   template <class Ids>
-  [[gnu::always_inline]] inline void take_out(std::int32_t slot, const Ids& ids) {
-    Line& leaving = line(slot);
-    const std::int32_t home = leaving.home;
-    if (home == kAbsent) return;
-    leaving.home = kAbsent;
-    --size_;
-    if (home == kHeap) {
-      const Entry last = heap_[index(--heap_size_)];
-      if (last.slot != slot) find_place(leaving.place, last, ids);
-    } else if (home == kRest) {
-      const std::int32_t last = rest_.back();
-      rest_.pop_back();
-      if (last == slot) return;
-      rest_[index(leaving.place)] = last;
-      line(last).place = leaving.place;
-    } else {
-      if (leaving.place != kNull) line(leaving.place).previous = leaving.previous;
-      if (leaving.previous != kNull) {
-        line(leaving.previous).place = leaving.place;
-        return;
-      }
-      buckets_[index(home)] = leaving.place;
-      if (leaving.place == kNull) {
-        occupied_[index(home) / 64] &= ~(std::uint64_t{1} << (index(home) % 64));
-      }
-    }
+  [[gnu::noinline]] void postpone(std::int32_t slot, std::int32_t place, const Ids& ids) {
+    close_gap(place, ids);
+    add_to_rest(slot);
+  }
+
+  void close_gap_in_rest(std::int32_t place) {
+    const std::int32_t last = rest_.back();
+    rest_[index(place)] = last;
+    line(last).place = place;
+    rest_.pop_back();
   }
 
   // REQUIRES: the heap is empty, the queue is not.
@@ -238,13 +257,13 @@ class EventQueue {
       const auto bucket = static_cast<std::int32_t>(
           word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word])));
       occupied_[word] &= occupied_[word] - 1;
-      open_end_ = (static_cast<Int128>(bucket) + 1) << shift_;
-      std::int32_t slot = buckets_[index(bucket)];
-      buckets_[index(bucket)] = kNull;
+      open(bucket);
+      std::int32_t slot = std::exchange(buckets_[index(bucket)], kNull);
       while (slot != kNull) {
-        const std::int32_t next = line(slot).place;
-        --size_;
-        put_in(slot, kHeap, ids);
+        Line& entering = line(slot);
+        const std::int32_t next = entering.place;
+        entering.home = kHeap;
+        push({filing_of(entering.event.at).after, slot}, ids);
         slot = next;
       }
       const std::size_t released = index(heap_size_);
@@ -255,6 +274,13 @@ class EventQueue {
       return;
     }
     begin_lap(ids);
+  }
+
+  void open(std::int32_t bucket) {
+    const Int128 onwards = static_cast<Int128>(bucket - open_bucket_) << shift_;
+    open_bucket_ = bucket;
+    open_start_ += onwards;
+    lap_left_ -= onwards;
   }
 
   // Of the next two buckets: the nearer one's first slot is known by now, the other's is asked for.
@@ -274,7 +300,7 @@ class EventQueue {
 
   // The world has become faster or fuller than the buckets were cut for.
   void gather_all() {
-    for (std::int32_t place = 0; place < heap_size_; ++place) gather(heap_[index(place)].slot);
+    for (std::int32_t place = 0; place < heap_size_; ++place) add_to_rest(heap_[index(place)].slot);
     heap_size_ = 0;
     for (std::size_t word = first_word_; word < occupied_.size(); ++word) {
       for (; occupied_[word] != 0; occupied_[word] &= occupied_[word] - 1) {
@@ -282,18 +308,12 @@ class EventQueue {
             word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word]));
         for (std::int32_t slot = buckets_[bucket]; slot != kNull;) {
           const std::int32_t next = line(slot).place;
-          gather(slot);
+          add_to_rest(slot);
           slot = next;
         }
         buckets_[bucket] = kNull;
       }
     }
-  }
-
-  void gather(std::int32_t slot) {
-    line(slot).home = kRest;
-    line(slot).place = static_cast<std::int32_t>(rest_.size());
-    rest_.push_back(slot);
   }
 
   // All events are in the rest: cuts buckets for them and files them.
@@ -310,16 +330,26 @@ class EventQueue {
       occupied_.assign(wanted / 64, 0);
     }
     shift_ = shift_for(first);
-    const Int128 width = static_cast<Int128>(1) << shift_;
-    lap_start_ = first;
-    lap_length_ = width * static_cast<Int128>(buckets_.size());
-    open_end_ = width;
+    coarseness_ = std::max(shift_ - 64, 0);
+    width_ = static_cast<Int128>(1) << shift_;
+    open_start_ = first;
+    open_bucket_ = 0;
+    lap_left_ = width_ * static_cast<Int128>(buckets_.size());
     first_word_ = 0;
     released_ = 0;
     refiled_.swap(rest_);
     rest_.clear();
-    size_ -= refiled_.size();
-    for (const std::int32_t slot : refiled_) put_in(slot, home_of(event_of(slot).at), ids);
+    for (const std::int32_t slot : refiled_) {
+      const Filing to = filing_of(event_of(slot).at);
+      line(slot).home = to.home;
+      if (to.home == kHeap) {
+        push({to.after, slot}, ids);
+      } else if (to.home == kRest) {
+        add_to_rest(slot);
+      } else {
+        link(slot);
+      }
+    }
     refiled_.clear();
   }
 
@@ -343,24 +373,33 @@ class EventQueue {
 
   template <class Ids>
   bool before(const Entry& a, const Entry& b, const Ids& ids) const {
-    if (a.at != b.at) [[likely]]
-      return a.at < b.at;
-    return tie(a.slot, b.slot, ids);
+    if (a.after != b.after) return a.after < b.after;
+    return earlier(event_of(a.slot), a.slot, event_of(b.slot), b.slot, ids);
   }
 
-  template <class Ids>
-  [[gnu::noinline, gnu::cold]] bool tie(std::int32_t a, std::int32_t b, const Ids& ids) const {
-    return earlier(event_of(a), a, event_of(b), b, ids);
-  }
-
-  void put(std::int32_t place, const Entry& entry) {
+  void put(std::int32_t place, Entry entry) {
     heap_[index(place)] = entry;
     line(entry.slot).place = place;
   }
 
+  template <class Ids>
+  [[gnu::noinline]] void push(Entry entry, const Ids& ids) {
+    if (index(heap_size_) == heap_.size()) grow_heap();
+    sift_up(heap_size_++, entry, ids);
+  }
+
+  [[gnu::noinline, gnu::cold]] void grow_heap() { heap_.resize(2 * heap_.size() + kHeapMin); }
+
+  /// Fills the gap that an entry of the heap leaves.
+  template <class Ids>
+  [[gnu::noinline]] void close_gap(std::int32_t place, const Ids& ids) {
+    const Entry last = heap_[index(--heap_size_)];
+    if (place != heap_size_) find_place(place, last, ids);
+  }
+
   /// Puts an entry where it belongs, with a gap in the heap at `place`.
   template <class Ids>
-  void find_place(std::int32_t place, const Entry& entry, const Ids& ids) {
+  [[gnu::noinline]] void find_place(std::int32_t place, Entry entry, const Ids& ids) {
     if (place > 0 && before(entry, heap_[index((place - 1) / kArity)], ids)) {
       sift_up(place, entry, ids);
     } else {
@@ -368,8 +407,24 @@ class EventQueue {
     }
   }
 
+  // By numbers alone; where two are equal, the rest of the way is gone with a closer look.
   template <class Ids>
-  void sift_up(std::int32_t place, const Entry& entry, const Ids& ids) {
+  void sift_up(std::int32_t place, Entry entry, const Ids& ids) {
+    Entry* const heap = heap_.data();
+    while (place > 0) {
+      const std::int32_t parent = (place - 1) / kArity;
+      const Entry above = heap[index(parent)];
+      if (above.after == entry.after) [[unlikely]]
+        return sift_up_closely(place, entry, ids);
+      if (above.after < entry.after) break;
+      put(place, above);
+      place = parent;
+    }
+    put(place, entry);
+  }
+
+  template <class Ids>
+  [[gnu::noinline]] void sift_up_closely(std::int32_t place, Entry entry, const Ids& ids) {
     while (place > 0) {
       const std::int32_t parent = (place - 1) / kArity;
       if (!before(entry, heap_[index(parent)], ids)) break;
@@ -380,7 +435,33 @@ class EventQueue {
   }
 
   template <class Ids>
-  void sift_down(std::int32_t place, const Entry& entry, const Ids& ids) {
+  void sift_down(std::int32_t place, Entry entry, const Ids& ids) {
+    Entry* const heap = heap_.data();
+    const std::int32_t size = heap_size_;
+    for (;;) {
+      const std::int32_t first = kArity * place + 1;
+      if (first >= size) break;
+      const std::int32_t last = std::min(first + kArity, size);
+      Entry least = heap[index(first)];
+      std::int32_t best = first;
+      bool is_tie = false;
+      for (std::int32_t i = first + 1; i < last; ++i) {
+        const Entry other = heap[index(i)];
+        is_tie |= other.after == least.after;
+        best = other.after < least.after ? i : best;
+        least = other.after < least.after ? other : least;
+      }
+      if (is_tie || least.after == entry.after) [[unlikely]]
+        return sift_down_closely(place, entry, ids);
+      if (entry.after < least.after) break;
+      put(place, least);
+      place = best;
+    }
+    put(place, entry);
+  }
+
+  template <class Ids>
+  [[gnu::noinline]] void sift_down_closely(std::int32_t place, Entry entry, const Ids& ids) {
     for (;;) {
       const std::int32_t first = kArity * place + 1;
       if (first >= heap_size_) break;
@@ -406,10 +487,13 @@ class EventQueue {
   std::vector<std::int32_t> rest_;
   std::vector<std::int32_t> refiled_;  // kept for its memory
 
-  Int128 lap_start_ = 0;   // in 2^-64 s
-  Int128 lap_length_ = 0;  // likewise, from there; 0 before the first lap
-  Int128 open_end_ = 0;
-  int shift_ = 0;  // the logarithm of a bucket's width in 2^-64 s
+  // In 2^-64 s. Before the first lap all events are in the rest.
+  Int128 open_start_ = -(static_cast<Int128>(1) << 126);
+  Int128 width_ = 0;     // of a bucket
+  Int128 lap_left_ = 0;  // from the open bucket's start
+  int shift_ = 0;        // the logarithm of the width
+  int coarseness_ = 0;   // of Filing::after
+  std::int32_t open_bucket_ = 0;
   std::size_t first_word_ = 0;
   std::size_t released_ = 0;  // events from buckets, in this lap
   std::int32_t upcoming_ = kNull;

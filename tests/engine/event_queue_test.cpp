@@ -111,7 +111,7 @@ void run_dry_against_a_sorted_list(std::int32_t slots, int rounds, Step&& step) 
     }
   };
   for (std::int32_t slot = 0; slot < slots; ++slot) plan(slot, {});
-  Instant last;
+  Instant last{-kSecondsMax, 0};
   for (int i = 0; i < rounds && !reference.empty(); ++i) {
     ASSERT_EQ(queue.size(), reference.size());
     const std::int32_t top = queue.top(kIds);
@@ -145,6 +145,17 @@ TEST(EventQueue, KeepsItsOrderWhenAllEventsFallOnFewInstants) {
   Random random(test::seed_of_run());
   run_dry_against_a_sorted_list(300, 8'000, [&](const Instant& now) {
     return Instant{now.seconds + static_cast<std::int64_t>(random.below(2)), 0};
+  });
+}
+
+TEST(EventQueue, TellsEventsATickApartWhereBucketsAreHoursWideAndInstantsNegative) {
+  Random random(test::seed_of_run());
+  constexpr Instant kBegin{-(std::int64_t{1} << 40), 0};
+  run_dry_against_a_sorted_list(300, 8'000, [&](const Instant& now) {
+    const std::int64_t hours = static_cast<std::int64_t>(random.below(500)) * 36'000;
+    const auto few = static_cast<Int128>(random.below(3));
+    const Instant from = now == Instant{} ? kBegin : now;
+    return instant_from_ticks(ticks(from) + (static_cast<Int128>(hours) << 64) + few);
   });
 }
 

@@ -46,12 +46,12 @@ struct Shares {
 /// (1); `change` stands for 2 u . p, `length2` = p . p; not both bodies are fixed. The masses' sum
 /// joins the denominator exactly: rounded apart, it would err alike in all contacts of a pair.
 template <class S>
-[[nodiscard]] inline Shares<S> shares_of_impulse(const DoubleWord<S>& change,
-                                                 const TripleWord<S>& length2,
-                                                 S mass_a,
-                                                 bool fixed_a,
-                                                 S mass_b,
-                                                 bool fixed_b) noexcept {
+[[nodiscard, gnu::always_inline]] inline Shares<S> shares_of_impulse(const DoubleWord<S>& change,
+                                                                     const TripleWord<S>& length2,
+                                                                     S mass_a,
+                                                                     bool fixed_a,
+                                                                     S mass_b,
+                                                                     bool fixed_b) noexcept {
   if (fixed_a || fixed_b) {
     const DoubleWord<S> none{S(0), S(0)};
     const DoubleWord<S> whole = unbiased_quotient(change, length2);
@@ -107,6 +107,34 @@ template <class S, bool Always, class Gain>
   return result;
 }
 
+/// normal_impulse() for all others: p cancels and u is linear in (1), so both may be shifted into
+/// the range where squares are safe.
+template <class S, bool Always, class Gain>
+[[nodiscard, gnu::noinline, gnu::cold]] inline PairImpulse<S> normal_impulse_shifted(
+    const DoubleWord2<S>& p,
+    const DoubleWord2<S>& u,
+    S mass_a,
+    bool fixed_a,
+    S mass_b,
+    bool fixed_b,
+    const Gain& gain) noexcept {
+  const int by_speed = steps_into_range(size_of(u));
+  PairImpulse<S> result =
+      normal_impulse_in_range<S, Always>(shifted(p, steps_into_range(size_of(p))),
+                                         shifted(u, by_speed),
+                                         mass_a,
+                                         fixed_a,
+                                         mass_b,
+                                         fixed_b,
+                                         gain,
+                                         by_speed);
+  result.delta_a = shifted(result.delta_a, -by_speed);
+  result.delta_b = shifted(result.delta_b, -by_speed);
+  result.approach_speed = shifted(result.approach_speed, -by_speed);
+  result.impulse = shifted(result.impulse, -by_speed);
+  return result;
+}
+
 /// The impulse along the normal that takes `gain(closing, p . p, by_speed)` from u . p, where
 /// closing = u . p < 0 before, and speeds are 1 / shifted(1, by_speed) m/s; see elastic_impulse for
 /// the rest. `Always`: also where the bodies do not approach.
@@ -123,22 +151,7 @@ template <class S, bool Always = false, class Gain>
   if (is_in_range(size_of(p)) && is_in_range(size_of(u))) [[likely]] {
     return normal_impulse_in_range<S, Always>(p, u, mass_a, fixed_a, mass_b, fixed_b, gain, 0);
   }
-  // p cancels and u is linear in (1): both may be shifted into the range where squares are safe.
-  const int by_speed = steps_into_range(size_of(u));
-  PairImpulse<S> result =
-      normal_impulse_in_range<S, Always>(shifted(p, steps_into_range(size_of(p))),
-                                         shifted(u, by_speed),
-                                         mass_a,
-                                         fixed_a,
-                                         mass_b,
-                                         fixed_b,
-                                         gain,
-                                         by_speed);
-  result.delta_a = shifted(result.delta_a, -by_speed);
-  result.delta_b = shifted(result.delta_b, -by_speed);
-  result.approach_speed = shifted(result.approach_speed, -by_speed);
-  result.impulse = shifted(result.impulse, -by_speed);
-  return result;
+  return normal_impulse_shifted<S, Always>(p, u, mass_a, fixed_a, mass_b, fixed_b, gain);
 }
 
 }  // namespace detail

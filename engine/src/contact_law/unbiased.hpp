@@ -31,7 +31,8 @@ struct TripleWord {
 
 /// (1)
 template <class S>
-[[nodiscard]] inline TripleWord<S> square_norm_in_three_words(const DoubleWord2<S>& p) noexcept {
+[[nodiscard, gnu::always_inline]] inline TripleWord<S> square_norm_in_three_words(
+    const DoubleWord2<S>& p) noexcept {
   if constexpr (kCompensated<S>) {
     const DoubleWord<S> x2 = two_prod(p.x.hi, p.x.hi), y2 = two_prod(p.y.hi, p.y.hi);
     const DoubleWord<S> x_mixed = two_prod(p.x.hi, p.x.lo), y_mixed = two_prod(p.y.hi, p.y.lo);
@@ -53,8 +54,8 @@ template <class S>
 
 /// (1)
 template <class S>
-[[nodiscard]] inline TripleWord<S> product_in_three_words(const TripleWord<S>& x,
-                                                          const DoubleWord<S>& m) noexcept {
+[[nodiscard, gnu::always_inline]] inline TripleWord<S> product_in_three_words(
+    const TripleWord<S>& x, const DoubleWord<S>& m) noexcept {
   if constexpr (kCompensated<S>) {
     const DoubleWord<S> high = two_prod(x.hi, m.hi);
     const DoubleWord<S> mixed = two_prod(x.lo, m.hi);
@@ -73,8 +74,8 @@ template <class S>
 
 /// (2)
 template <class S>
-[[nodiscard]] inline DoubleWord<S> unbiased_quotient(const DoubleWord<S>& x,
-                                                     const TripleWord<S>& y) noexcept {
+[[nodiscard, gnu::always_inline]] inline DoubleWord<S> unbiased_quotient(
+    const DoubleWord<S>& x, const TripleWord<S>& y) noexcept {
   if constexpr (kCompensated<S>) {
     const S inverse = S(1) / y.hi;
     const S guess = x.hi * inverse;

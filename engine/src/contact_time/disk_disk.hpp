@@ -38,9 +38,9 @@ template <class S>
 
 /// c where it cancels; `distance2` = |p|^2.
 template <class S>
-[[nodiscard]] inline S cancelling_gap(const DoubleWord2<S>& p,
-                                      const DoubleWord<S>& reach,
-                                      const S& distance2) noexcept {
+[[nodiscard, gnu::always_inline]] inline S cancelling_gap(const DoubleWord2<S>& p,
+                                                          const DoubleWord<S>& reach,
+                                                          const S& distance2) noexcept {
   const S c = to_scalar(square_norm(p) - square(reach));
   if constexpr (kCompensated<S>) {
     if (magnitude(c) < S(kThirdWordShare) * epsilon<S>() * distance2) {
@@ -125,7 +125,7 @@ template <class S>
 /// (3) in one word, and in two where that cancels; for lengths and speeds within Range<S>.
 /// Clear misses must have been sorted out: `b` < 0 is exact, `speed2` = |v|^2.
 template <class S>
-[[nodiscard]] inline std::optional<Duration<S>> pair_contact_adaptive(
+[[nodiscard, gnu::always_inline]] inline std::optional<Duration<S>> pair_contact_adaptive(
     const RelativeMotion<S>& motion,
     const DoubleWord<S>& reach,
     const S& b,
@@ -208,7 +208,7 @@ template <class S>
 /// Seconds until two disks touch while approaching, (3); none if they never do.
 /// `motion`: of b seen from a; `reach` = r_a + r_b in metres.
 template <class S>
-[[nodiscard]] inline std::optional<Duration<S>> disk_disk_contact(
+[[nodiscard, gnu::always_inline]] inline std::optional<Duration<S>> disk_disk_contact(
     const RelativeMotion<S>& motion, const DoubleWord<S>& reach) noexcept {
   const S length = detail::larger(detail::size_of(motion.position), reach.hi);
   const S speed = detail::size_of(motion.velocity);

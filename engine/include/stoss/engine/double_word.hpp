@@ -97,11 +97,14 @@ namespace detail {
   return {product, (((a_hi * b_hi - product) + a_hi * b_lo) + a_lo * b_hi) + a_lo * b_lo};
 }
 
-[[nodiscard]] inline DoubleWord<double> two_prod_double(double a, double b) noexcept {
 #if defined(__FMA__) || defined(FP_FAST_FMA) || defined(__ARM_FEATURE_FMA)
+[[nodiscard, gnu::always_inline]] inline DoubleWord<double> two_prod_double(double a,
+                                                                            double b) noexcept {
   const double product = a * b;
   return {product, std::fma(a, b, -product)};
+}
 #else
+[[nodiscard]] inline DoubleWord<double> two_prod_double(double a, double b) noexcept {
   // Chosen: far from the ends of the range (2^-969 and 2^996), at no cost in any real scene.
   constexpr double kSmall = 0x1p-900;
   constexpr double kLarge = 0x1p900;
@@ -112,8 +115,8 @@ namespace detail {
   }
   if (product == 0 && (a == 0 || b == 0)) return {product, 0.0};
   return {product, std::fma(a, b, -product)};
-#endif
 }
+#endif
 
 [[nodiscard, gnu::always_inline]] inline DoubleWord<TwoLanes> two_prod_lanes(
     const TwoLanes& a, const TwoLanes& b) noexcept {
@@ -364,7 +367,8 @@ template <class S>
 
 /// a.x b.x + a.y b.y
 template <class S>
-[[nodiscard]] inline DoubleWord<S> dot(const DoubleWord2<S>& a, const DoubleWord2<S>& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline DoubleWord<S> dot(const DoubleWord2<S>& a,
+                                                           const DoubleWord2<S>& b) noexcept {
   if constexpr (std::is_same_v<S, double>) {
     const DoubleWord2<S> products =
         detail::from_lanes(detail::side_by_side(a) * detail::side_by_side(b));
@@ -376,8 +380,8 @@ template <class S>
 
 /// a.x b.y - a.y b.x
 template <class S>
-[[nodiscard]] inline DoubleWord<S> cross(const DoubleWord2<S>& a,
-                                         const DoubleWord2<S>& b) noexcept {
+[[nodiscard, gnu::always_inline]] inline DoubleWord<S> cross(const DoubleWord2<S>& a,
+                                                             const DoubleWord2<S>& b) noexcept {
   if constexpr (std::is_same_v<S, double>) {
     const DoubleWord2<S> products =
         detail::from_lanes(detail::side_by_side(a) * detail::side_by_side(b.y, b.x));
@@ -389,7 +393,8 @@ template <class S>
 
 /// |a|^2
 template <class S>
-[[nodiscard]] inline DoubleWord<S> square_norm(const DoubleWord2<S>& a) noexcept {
+[[nodiscard, gnu::always_inline]] inline DoubleWord<S> square_norm(
+    const DoubleWord2<S>& a) noexcept {
   if constexpr (std::is_same_v<S, double>) {
     const DoubleWord2<S> products = detail::from_lanes(square(detail::side_by_side(a)));
     return products.x + products.y;
@@ -403,10 +408,11 @@ namespace detail {
 /// a b + c e rounded to one word; error <= u |result| + 8 u^2 (|a b| + |c e|), a third of the work
 /// of the double-word operators.
 template <class S>
-[[nodiscard]] inline S rounded_sum_of_products(const DoubleWord<S>& a,
-                                               const DoubleWord<S>& b,
-                                               const DoubleWord<S>& c,
-                                               const DoubleWord<S>& e) noexcept {
+[[nodiscard, gnu::always_inline]] inline S rounded_sum_of_products(
+    const DoubleWord<S>& a,
+    const DoubleWord<S>& b,
+    const DoubleWord<S>& c,
+    const DoubleWord<S>& e) noexcept {
   if constexpr (kCompensated<S>) {
     const DoubleWord<S> first = two_prod(a.hi, b.hi);
     const DoubleWord<S> second = two_prod(c.hi, e.hi);
