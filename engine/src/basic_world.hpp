@@ -475,6 +475,7 @@ class BasicWorld final : public WorldCore {
   void write_body(Sink& sink, Slot slot, const Effects& kind) const;
   void note_digest_stale(Slot slot);
   void note_fresh_digest_stale(Slot slot);
+  std::uint64_t digest_of(Slot slot, const Effects& kind) const;
   const char* read_bodies(ByteSource& source);
   void read_body(ByteSource& source, Id id, BodyType type);
   bool is_sound(Slot slot) const;
@@ -518,7 +519,9 @@ class BasicWorld final : public WorldCore {
   Slot due_slot_ = -1;                          ///< whose that is, until an event is processed
 
   // The bodies' digests, brought up to date for those that changed when the hash is asked for.
+  // Nothing is kept until it was asked for once.
   struct Digests {
+    bool is_kept = false;
     std::vector<std::uint64_t> of_slot;
     std::vector<std::uint8_t> is_stale;  // not bits: noted twice a collision
     std::vector<Slot> stale;

@@ -15,6 +15,9 @@
 #include "effects_bytes.hpp"
 #include "limits.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace stoss::engine {
 
 inline constexpr std::uint64_t kBytesMagic = 0x31444c525753534fU;
@@ -82,6 +85,7 @@ std::vector<std::byte> BasicWorld<S, Laws>::bytes_for(const Effects& kind) const
 
 template <class S, class Laws>
 [[gnu::always_inline]] inline void BasicWorld<S, Laws>::note_digest_stale(Slot slot) {
+  if (!digests_.is_kept) return;
   if (index(slot) < digests_.is_stale.size() && digests_.is_stale[index(slot)] != 0) return;
   note_fresh_digest_stale(slot);
 }
@@ -92,8 +96,16 @@ template <class S, class Laws>
     digests_.of_slot.resize(index(slot) + 1, 0);
     digests_.is_stale.resize(index(slot) + 1, 0);
   }
-  digests_.is_stale[index(slot)] = 1;
+  if (std::exchange(digests_.is_stale[index(slot)], std::uint8_t{1}) != 0) return;
   digests_.stale.push_back(slot);
+}
+
+template <class S, class Laws>
+std::uint64_t BasicWorld<S, Laws>::digest_of(Slot slot, const Effects& kind) const {
+  if (at(slot).id == kNoId) return 0;
+  DigestSink digest;
+  write_body(digest, slot, kind);
+  return digest.digest();
 }
 
 // A sum over bodies, so that it does not depend on an order and follows changes body by body.
@@ -111,12 +123,16 @@ std::uint64_t BasicWorld<S, Laws>::state_hash() const {
     header.word(first);
     header.word(last);
   }
+  if (!std::exchange(digests_.is_kept, true)) {
+    digests_.of_slot.assign(bodies_.size(), 0);
+    digests_.is_stale.assign(bodies_.size(), 0);
+    for (Slot slot = 0; index(slot) < bodies_.size(); ++slot) {
+      digests_.sum += digests_.of_slot[index(slot)] = digest_of(slot, kind);
+    }
+  }
   for (const Slot slot : digests_.stale) {
-    DigestSink digest;
-    if (at(slot).id != kNoId) write_body(digest, slot, kind);
-    const std::uint64_t now = at(slot).id != kNoId ? digest.digest() : 0;
-    digests_.sum += now - digests_.of_slot[index(slot)];
-    digests_.of_slot[index(slot)] = now;
+    const std::uint64_t now = digest_of(slot, kind);
+    digests_.sum += now - std::exchange(digests_.of_slot[index(slot)], now);
     digests_.is_stale[index(slot)] = 0;
   }
   digests_.stale.clear();
@@ -190,7 +206,9 @@ template <class S, class Laws>
 const char* BasicWorld<S, Laws>::read_bodies(ByteSource& source) {
   constexpr BodyType kLastType = Laws::kPlain ? BodyType::Wall : BodyType::Zone;
   const std::uint64_t count = source.word();
-  if (count > source.words_left()) return "truncated";
+  constexpr std::uint64_t kWordsMin = 12;  // id, type, instant, position and velocity
+  if (count > source.words_left() / kWordsMin) return "truncated";
+  make_room(count);
   Id previous = kNoId;
   for (std::uint64_t i = 0; i < count; ++i) {
     const Id id = source.word();

@@ -240,9 +240,7 @@ void BasicWorld<S, Laws>::make_room(std::size_t count) {
   bodies_.reserve(all);
   slots_.reserve(all, id_of_slot());
   sights_.of_slot.reserve(all);
-  digests_.of_slot.reserve(all);
-  digests_.is_stale.reserve(all);
-  digests_.stale.reserve(all);
+  queue_.admit(static_cast<Slot>(all - 1));
 }
 
 template <class S, class Laws>

@@ -83,17 +83,21 @@ struct Epoch {
   Time<S> begin;
   double length = 1;  ///< s
 
-  /// Sights are taken anew; `events`: since the last time; `bodies`: how many there are. Long
-  /// epochs cost nothing and short ones are exact: one lasts some hundred events a body, or some
-  /// ten if it is longer than `fine`, s.
+  /// Sights are taken anew; `events`: since the last time; `bodies`: how many there are. That is a
+  /// moment without any event, so epochs are long: some ten thousand events a body, after which a
+  /// body's way since the epoch's beginning still adds less to `off` than a bound gives away
+  /// between two of its events. Where they had to be longer than `fine`, s, for that, some ten.
   void renew(const Time<S>& now,
              std::uint64_t events,
              std::uint64_t bodies,
              double fine = std::numeric_limits<double>::infinity()) {
     begin = now;
     const bool is_coarse = length > fine;
-    if (events < (is_coarse ? 1 : 64) * bodies) length = std::min(4 * length, 0x1p60);
-    if (events > (is_coarse ? 16 : 1024) * bodies) length = std::max(length / 4, 0x1p-60);
+    const bool becomes_coarse = 4 * length > fine;
+    if (events < (is_coarse ? 1 : becomes_coarse ? 64 : 4096) * bodies) {
+      length = std::min(4 * length, 0x1p60);
+    }
+    if (events > (is_coarse ? 16 : 65'536) * bodies) length = std::max(length / 4, 0x1p-60);
   }
 };
 

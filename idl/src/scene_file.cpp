@@ -83,9 +83,23 @@ std::optional<SceneError> read_text(std::string_view content,
   return error;
 }
 
+// Are all fields of all disks known? Without asking each which fields it has, for it is asked a
+// million times.
+bool are_known(const google::protobuf::RepeatedPtrField<Disk>& disks) {
+  const Reflection& of_disk = *Disk::GetReflection();
+  const Reflection& of_vector = *Vector2::GetReflection();
+  return std::all_of(disks.begin(), disks.end(), [&](const Disk& disk) {
+    return of_disk.GetUnknownFields(disk).empty() &&
+           of_vector.GetUnknownFields(disk.position()).empty() &&
+           of_vector.GetUnknownFields(disk.velocity()).empty();
+  });
+}
+/// What are_known() looks into.
+constexpr std::size_t kMessagesOfDisk = 2;
+
 // Looks for fields that a message's type does not have. Of each type it knows which fields hold
 // messages: to ask a million disks for all fields that they have would take longer than reading
-// them.
+// them. It would even to ask them for those, so they are looked through before.
 class UnknownFields {
  public:
   // The path of the first one in `message`, or nothing.
@@ -94,6 +108,7 @@ class UnknownFields {
     const google::protobuf::UnknownFieldSet& unknown = reflection.GetUnknownFields(message);
     if (!unknown.empty()) return "field number " + std::to_string(unknown.field(0).number());
     for (const FieldDescriptor* field : message_fields(message)) {
+      if (field->message_type() == Disk::descriptor() && has_known_disks(message)) continue;
       if (field->is_repeated()) {
         for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
           const auto found = find_in(reflection.GetRepeatedMessage(message, field, i));
@@ -120,6 +135,13 @@ class UnknownFields {
       }
     }
     return entry->second;
+  }
+
+  // A "no" says nothing.
+  bool has_known_disks(const Message& message) {
+    const auto* const scene = dynamic_cast<const Scene*>(&message);
+    return scene != nullptr && message_fields(Disk::default_instance()).size() == kMessagesOfDisk &&
+           are_known(scene->disks());
   }
 
   std::unordered_map<const google::protobuf::Descriptor*, Fields> fields_of_;
@@ -181,12 +203,21 @@ std::variant<std::string, SceneError> content_of(const std::filesystem::path& pa
                     code == ENOENT ? Code::kNotFound : Code::kUnavailable,
                     system_reason("cannot be opened", code));
   }
-  std::ostringstream content;
-  content << in.rdbuf();
-  if (in.bad() || (content.fail() && in.peek() != std::ifstream::traits_type::eof())) {
+  // Of a regular file all at once, and one byte more, which tells that there is no more.
+  const std::uintmax_t known = std::filesystem::file_size(path, none);
+  constexpr std::size_t kPiece = 1 << 16;
+  std::string content(none ? kPiece : std::max<std::size_t>(known + 1, kPiece), '\0');
+  std::size_t size = 0;
+  while (in) {
+    if (size == content.size()) content.resize(2 * size);
+    in.read(&content[size], static_cast<std::streamsize>(content.size() - size));
+    size += static_cast<std::size_t>(in.gcount());
+  }
+  if (in.bad()) {
     return error_of(path.string(), Code::kUnavailable, system_reason("cannot be read", errno));
   }
-  return std::move(content).str();
+  content.resize(size);
+  return content;
 }
 
 SceneError unknown_format(const std::filesystem::path& path) {

@@ -296,7 +296,19 @@ TEST(SightLaws, LongEpochsWithoutEventsAreNotCutShort) {
   EXPECT_EQ(epoch.length, 400);
   epoch.renew({600, 0}, 1'601, 100, 10);
   EXPECT_EQ(epoch.length, 100);
-  epoch.renew({700, 0}, 6'400, 100);
+  epoch.renew({700, 0}, 6'400, 100, 399);
+  EXPECT_EQ(epoch.length, 100);
+}
+
+TEST(SightLaws, EpochsLastTenThousandEventsABody) {
+  Epoch<double> epoch{{}, 100};
+  epoch.renew({100, 0}, 409'599, 100);
+  EXPECT_EQ(epoch.length, 400);
+  epoch.renew({500, 0}, 409'600, 100);
+  EXPECT_EQ(epoch.length, 400);
+  epoch.renew({900, 0}, 6'553'600, 100);
+  EXPECT_EQ(epoch.length, 400);
+  epoch.renew({1300, 0}, 6'553'601, 100);
   EXPECT_EQ(epoch.length, 100);
 }
 

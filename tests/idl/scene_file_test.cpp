@@ -184,6 +184,21 @@ TEST_F(SceneFile, BinaryErrorsAreFound) {
   EXPECT_EQ(error.id, 1U);
 }
 
+TEST_F(SceneFile, UnknownFieldsAreFoundInTheLastDisksVectors) {
+  const auto expect_found = [](const char* field, auto vector_of) {
+    Scene scene = sample_scene();
+    scene.add_disks()->CopyFrom(scene.disks(0));
+    const int last = scene.disks_size() - 1;
+    Vector2& vector = *vector_of(*scene.mutable_disks(last));
+    vector.GetReflection()->MutableUnknownFields(&vector)->AddVarint(9, 1);
+    const idl::SceneError error =
+        error_in(idl::parse_scene(scene.SerializeAsString(), idl::SceneFormat::kBinary, "s.binpb"));
+    EXPECT_EQ(error.field, "disks[" + std::to_string(last) + "]." + field + ".field number 9");
+  };
+  expect_found("position", [](Disk& disk) { return disk.mutable_position(); });
+  expect_found("velocity", [](Disk& disk) { return disk.mutable_velocity(); });
+}
+
 TEST_F(SceneFile, DisksAreChecked) {
   expect_json_error(R"({"disks":[{"radius":1}]})", "disks[0].position", "missing");
   expect_json_error(R"({"disks":[{"position":{}}]})", "disks[0].radius", "missing");
