@@ -29,7 +29,9 @@ class FramePort {
  private:
   /// The next chunk: as many disks as it holds, from this body on. Returns the first body after.
   std::size_t fill(const Picture& picture, std::size_t body);
-  void append(const FlightStates& states);
+  /// The kFlightsAtOnce disks from this one on, into as many rows. False, and nothing done, when
+  /// one of them must be evaluated by itself.
+  [[nodiscard]] bool append_flights(const Picture& picture, std::size_t body);
   void append(const engine::BodyState& state, bool has_grown);
   void write(std::uint32_t chunk);
   void drop_chunks_from(std::uint32_t chunks);
@@ -40,8 +42,9 @@ class FramePort {
   int readers_ = 0;
   std::optional<Moment> last_;
   std::uint64_t last_scene_ = 0;
-  std::vector<std::uint64_t> id_;  ///< of the chunk at hand, as the columns that follow
-  std::vector<double> x_, y_, vx_, vy_;
+  std::size_t rows_ = 0;  ///< of the chunk at hand, in the columns that follow
+  std::array<std::uint64_t, stoss_v1_MAX_FRAME_BODIES> id_;
+  std::array<double, stoss_v1_MAX_FRAME_BODIES> x_, y_, vx_, vy_;
   std::vector<double> radius_;  ///< empty while no disk has grown
   translate::SparseColumn angle_, spin_;
 };

@@ -9,12 +9,14 @@
 namespace stoss::service {
 void Picture::begin(const EpochRecord& record) {
   bodies_.clear();
+  ids_.clear();
   flights_.clear();
   walls_ = 0;
   index_.clear();
   names_.clear();
   has_grown_ = false;
   bodies_.reserve(record.bodies.size());
+  ids_.reserve(record.bodies.size());
   flights_.reserve(record.bodies.size());
   index_.reserve(record.bodies.size());
   for (const BodyChange& body : record.bodies) put(body);
@@ -49,6 +51,7 @@ void Picture::put(const BodyChange& change) {
   const auto [entry, is_new] = index_.try_emplace(change.motion.id, bodies_.size());
   if (is_new) {
     bodies_.push_back({change.motion, change.body});
+    ids_.push_back(change.motion.id);
     flights_.push_back(flight);
     if (change.body.is_wall) ++walls_;
   } else {
@@ -80,10 +83,12 @@ void Picture::remove(engine::Id id) {
   if (bodies_[hole].record.is_wall) --walls_;
   if (hole + 1 != bodies_.size()) {
     bodies_[hole] = bodies_.back();
+    ids_[hole] = ids_.back();
     flights_[hole] = flights_.back();
-    index_[bodies_[hole].motion.id] = hole;
+    index_[ids_[hole]] = hole;
   }
   bodies_.pop_back();
+  ids_.pop_back();
   flights_.pop_back();
   names_.erase(id);
   ++scene_version_;

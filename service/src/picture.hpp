@@ -46,7 +46,8 @@ class Picture {
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
   [[nodiscard]] std::size_t disk_count() const { return bodies_.size() - walls_; }
 
-  /// One a body, in the order of bodies().
+  /// One a body, in the order of bodies(), as the flights.
+  [[nodiscard]] const std::vector<engine::Id>& ids() const { return ids_; }
   [[nodiscard]] const std::vector<Flight>& flights() const { return flights_; }
   /// In the order of ids.
   [[nodiscard]] std::vector<const Body*> ordered() const;
@@ -77,6 +78,7 @@ class Picture {
   std::uint64_t scene_version_ = 0;
   bool has_grown_ = false;
   std::vector<Body> bodies_;
+  std::vector<engine::Id> ids_;
   std::vector<Flight> flights_;
   std::size_t walls_ = 0;
   std::unordered_map<engine::Id, std::size_t> index_;
