@@ -10,31 +10,29 @@ namespace stoss::service {
 
 void FramePort::publish(const Picture& picture) {
   const int readers = writer_.readers();
-  const bool is_new =
-      last_ != picture.moment() || last_scene_ != picture.scene_version() || readers > readers_;
+  const bool is_new = is_news(picture) || readers > readers_;
   readers_ = readers;
   if (readers == 0) drop_chunks_from(0);  // or the next reader would first be given an old picture
   if (readers == 0 || !is_new) return;
-  last_ = picture.moment();
-  last_scene_ = picture.scene_version();
+  published_ = picture.version();
   const std::size_t chunks = std::max<std::size_t>(
       1, (picture.disk_count() + stoss_v1_MAX_FRAME_BODIES - 1) / stoss_v1_MAX_FRAME_BODIES);
   drop_chunks_from(static_cast<std::uint32_t>(chunks));
   std::size_t body = 0;
   for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk) {
     body = fill(picture, body);
-    write(chunk);
+    write(picture.moment(), chunk);
   }
   ++count_;
 }
 
-void FramePort::write(std::uint32_t chunk) {
+void FramePort::write(const Moment& moment, std::uint32_t chunk) {
   wire::FrameChunk sample{};
   sample.chunk = chunk;
   sample.chunks = chunks_;
-  sample.epoch = last_->epoch;
-  sample.tick = last_->tick;
-  sample.at = translate::to_wire(last_->at);
+  sample.epoch = moment.epoch;
+  sample.tick = moment.tick;
+  sample.at = translate::to_wire(moment.at);
   idl::lend(sample.id, std::span(id_).first(rows_));
   idl::lend(sample.x, std::span(x_).first(rows_));
   idl::lend(sample.y, std::span(y_).first(rows_));

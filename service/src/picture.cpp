@@ -25,6 +25,7 @@ void Picture::begin(const EpochRecord& record) {
   effects_ = record.effects;
   moment_ = record.moment;
   state_hash_ = record.state_hash;
+  ++version_;
   ++scene_version_;
 }
 
@@ -39,6 +40,7 @@ void Picture::apply(const TickRecord& record) {
   if (record.zones) set_zones(*record.zones);
   name(record.names);
   moment_ = record.moment;
+  ++version_;
   if (record.effects) {
     effects_ = *record.effects;
     ++scene_version_;

@@ -35,6 +35,8 @@ class Picture {
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
   /// The names of those that are on.
   [[nodiscard]] const std::vector<std::string>& effects() const { return effects_; }
+  /// Raised by every record; 0 before the first.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
   /// Raised whenever a body comes or goes, a wall changes its way, or an effect is switched.
   [[nodiscard]] std::uint64_t scene_version() const { return scene_version_; }
 
@@ -75,6 +77,7 @@ class Picture {
   engine::Vector2 period_;
   Moment moment_;
   std::uint64_t state_hash_ = 0;
+  std::uint64_t version_ = 0;
   std::uint64_t scene_version_ = 0;
   bool has_grown_ = false;
   std::vector<Body> bodies_;

@@ -138,9 +138,20 @@ struct Look {
   double frames_late = 0;
 };
 
-Look look_at(const Process& daemon, WireClient& client) {
+tests::GotAnswer status_of(const Process& daemon, WireClient& client) {
   tests::GotAnswer got = client.ask(idl::Ask::kStatus);
   if (!got.status) throw std::runtime_error("the daemon does not answer: " + daemon.log());
+  return got;
+}
+
+/// Just after a tick: in between, the simulated time stands still while the real time goes on.
+Look look_at(const Process& daemon, WireClient& client) {
+  tests::GotAnswer got = status_of(daemon, client);
+  const std::uint64_t tick = got.status->tick;
+  while (got.status->tick == tick) {
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+    got = status_of(daemon, client);
+  }
   Look look{.sender = thread_times(daemon.pid(), "world"), .status = *got.status};
   look.frames_late = static_cast<double>(got.counters["frames_late"]);
   return look;
@@ -188,10 +199,7 @@ Figures frame_cost(const std::string& scene, std::size_t bodies, Seconds seconds
   const Stretch quiet(alone, alone_after);
   const Stretch busy(before, after);
   const double following_ns = quiet.others_ns / quiet.events;
-  const auto real = [](const wire::Status& s) {
-    return static_cast<double>(s.real_seconds) + 1e-9 * s.real_nanoseconds;
-  };
-  const double real_s = real(after.status) - real(before.status);
+  const double real_s = after.status.uptime - before.status.uptime;
   const double simulated_s = engine::seconds_between(translate::to_engine(before.status.at),
                                                      translate::to_engine(after.status.at));
   const double sent = busy.frames * static_cast<double>(bodies);
@@ -330,7 +338,8 @@ int run(const Options& options) {
 }
 
 int usage() {
-  std::fputs("usage: publish_bench [--seconds S] [--rounds N] [--bodies B] [--json FILE]\n", stderr);
+  std::fputs("usage: publish_bench [--seconds S] [--rounds N] [--bodies B] [--json FILE]\n",
+             stderr);
   return 2;
 }
 
