@@ -3,13 +3,19 @@
 
 #include "lanes.hpp"
 
+#include <cmath>
+
 namespace stoss::service {
 namespace {
 
 using engine::DoubleWord;
 using engine::DoubleWord2;
 
-bool is_zero(const engine::SplitNumber& number) { return number.high == 0 && number.low == 0; }
+/// What a flight leaves out must be what a record has by itself, the sign of a zero included.
+bool is_plain_zero(double number) { return number == 0 && !std::signbit(number); }
+bool is_plain_zero(const engine::SplitNumber& number) {
+  return is_plain_zero(number.high) && is_plain_zero(number.low);
+}
 
 /// Up to so many seconds of either sign engine::difference() is exact in the form below.
 constexpr std::uint64_t kElapsedMax = std::uint64_t{1} << 21;
@@ -79,8 +85,10 @@ Flight flight_of(const engine::MotionRecord& motion,
                  const engine::BodyRecord& body,
                  engine::Arithmetic arithmetic,
                  const engine::Vector2& period) {
-  const bool is_straight = is_zero(motion.ax) && is_zero(motion.ay) && motion.drag == 0;
-  const bool is_steady = motion.angle == 0 && motion.spin == 0 && motion.radius.high == 0;
+  const bool is_straight =
+      is_plain_zero(motion.ax) && is_plain_zero(motion.ay) && is_plain_zero(motion.drag);
+  const bool is_steady = is_plain_zero(motion.angle) && is_plain_zero(motion.spin) &&
+                         is_plain_zero(motion.radius) && is_plain_zero(motion.growth);
   const bool is_open = period.x() == 0 && period.y() == 0;
   if (body.is_wall || !is_straight || !is_steady || !is_open ||
       arithmetic == engine::Arithmetic::Float) {

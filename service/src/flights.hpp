@@ -23,6 +23,11 @@ struct Flight {
   return flight.motion.since != engine::Instant::never();
 }
 
+/// The record that it was made from. REQUIRES: is_flight(flight).
+[[nodiscard]] inline engine::MotionRecord record_of(engine::Id id, const Flight& flight) {
+  return engine::to_record(id, flight.motion);
+}
+
 /// None when the body is no such disk.
 [[nodiscard]] Flight flight_of(const engine::MotionRecord& motion,
                                const engine::BodyRecord& body,

@@ -4,6 +4,7 @@
 #include <stoss/idl/sequence.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 namespace stoss::service {
@@ -56,8 +57,7 @@ std::size_t FramePort::fill(const Picture& picture, std::size_t body) {
     }
     const std::size_t end = std::min(picture.size(), body + kFlightsAtOnce);
     for (; body < end && rows_ < id_.size(); ++body) {
-      const Picture::Body& one = picture.bodies()[body];
-      if (!one.record.is_wall) append(picture.state_of(one), picture.has_grown());
+      if (!picture.is_wall(body)) append(picture.state_of(body), picture.has_grown());
     }
   }
   return body;
@@ -125,8 +125,8 @@ void BodyPort::publish(const Picture& picture) {
 }
 
 void BodyPort::write(std::uint32_t slot, const Picture& picture) {
-  const Picture::Body* const body = picture.find(slots_[slot]);
-  if (body == nullptr) return;
+  const std::optional<Picture::Body> body = picture.find(slots_[slot]);
+  if (!body) return;
   wire::BodyState sample{};
   sample.slot = slot;
   sample.epoch = picture.moment().epoch;

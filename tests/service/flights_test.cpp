@@ -79,7 +79,7 @@ void expect_states_of(const Picture& picture) {
   States states;
   ASSERT_TRUE(states_of(picture, states));
   for (std::size_t i = 0; i < kFlightsAtOnce; ++i) {
-    const engine::BodyState state = picture.state_of(picture.bodies()[i]);
+    const engine::BodyState state = picture.state_of(picture.body(i));
     EXPECT_EQ(picture.ids()[i], state.id);
     EXPECT_EQ(bits(states.x[i]), bits(state.position.x()));
     EXPECT_EQ(bits(states.y[i]), bits(state.position.y()));
@@ -190,12 +190,60 @@ TEST(Flights, StandBesideTheirBodiesWhileBodiesComeAndGo) {
     ASSERT_EQ(picture.ids().size(), picture.size());
     std::size_t walls = 0;
     for (std::size_t i = 0; i < picture.size(); ++i) {
-      const Picture::Body& body = picture.bodies()[i];
+      const Picture::Body body = picture.body(i);
       if (body.record.is_wall) ++walls;
       EXPECT_EQ(picture.ids()[i], body.motion.id);
       EXPECT_EQ(is_flight(picture.flights()[i]), !body.record.is_wall);
     }
     EXPECT_EQ(picture.disk_count() + walls, picture.size());
+  }
+}
+
+/// Are they one body in all that changes here?
+void expect_same(const Picture::Body& body, const BodyChange& change) {
+  const auto same = [](const engine::SplitNumber& a, const engine::SplitNumber& b) {
+    return bits(a.high) == bits(b.high) && bits(a.low) == bits(b.low);
+  };
+  EXPECT_EQ(body.motion.id, change.motion.id);
+  EXPECT_TRUE(same(body.motion.x, change.motion.x));
+  EXPECT_TRUE(same(body.motion.y, change.motion.y));
+  EXPECT_TRUE(same(body.motion.vx, change.motion.vx));
+  EXPECT_TRUE(same(body.motion.vy, change.motion.vy));
+  EXPECT_EQ(body.motion.since, change.motion.since);
+  EXPECT_EQ(bits(body.motion.angle), bits(change.motion.angle));
+  EXPECT_EQ(bits(body.motion.spin), bits(change.motion.spin));
+  EXPECT_TRUE(same(body.motion.ax, change.motion.ax));
+  EXPECT_EQ(body.record.id, change.body.id);
+  EXPECT_EQ(body.record.radius, change.body.radius);
+  EXPECT_EQ(body.record.is_wall, change.body.is_wall);
+}
+
+TEST(Flights, LeaveTheirBodiesWhatTheLastChangesMadeThem) {
+  Random random(25);
+  constexpr engine::Id kBodies = 50;
+  std::vector<BodyChange> last = disks(kBodies, random);
+  Picture picture = picture_of(last);
+  for (int round = 0; round < 300; ++round) {
+    TickRecord record;
+    record.moment.at = kNow;
+    if (random.one_in(20)) record.effects.emplace();
+    for (int i = 0; i < 20; ++i) {
+      const auto id = static_cast<engine::Id>(random.uniform(1, kBodies));
+      BodyChange change = disk(id, random);
+      change.kind = engine::ChangeKind::Moved;
+      change.body.radius = last[id - 1].body.radius;
+      if (record.effects) change.body.radius *= 1.25;
+      if (random.one_in(4)) change.motion.spin = random.one_in(2) ? -0.0 : 1;
+      if (random.one_in(8)) change.motion.ax = {0, -0.0};
+      record.changes.push_back(change);
+      last[id - 1] = change;
+    }
+    picture.apply(record);
+    for (const BodyChange& change : last) {
+      const auto body = picture.find(change.motion.id);
+      ASSERT_TRUE(body);
+      expect_same(*body, change);
+    }
   }
 }
 
