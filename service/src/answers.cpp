@@ -124,10 +124,10 @@ class WorldContent final : public AnswerContent {
   explicit WorldContent(const Picture& picture) : state_hash_(picture.state_hash()) {
     motions_.reserve(picture.size());
     statics_.reserve(picture.size());
-    for (const Picture::Body* body : picture.ordered()) {
-      motions_.append(engine::ChangeKind::Spawned, body->motion);
-      statics_.append(body->record);
-    }
+    picture.for_each_in_order([this](const Picture::Body& body) {
+      motions_.append(engine::ChangeKind::Spawned, body.motion);
+      statics_.append(body.record);
+    });
   }
   std::uint32_t chunks() const override {
     const std::size_t chunks = std::max(chunks_for(motions_.size(), stoss_v1_MAX_MOTIONS),
@@ -213,13 +213,13 @@ std::shared_ptr<AnswerContent> make_content(const wire::Status& status) {
 std::shared_ptr<AnswerContent> list_content(const Picture& picture) {
   Rows rows;
   rows.states.reserve(picture.size());
-  for (const Picture::Body* body : picture.ordered()) {
-    if (body->record.is_wall) {
-      rows.walls.append(picture.wall_of(*body));
+  picture.for_each_in_order([&](const Picture::Body& body) {
+    if (body.record.is_wall) {
+      rows.walls.append(picture.wall_of(body));
     } else {
-      rows.states.append(picture.state_of(*body));
+      rows.states.append(picture.state_of(body));
     }
-  }
+  });
   return make_content(std::move(rows));
 }
 

@@ -4,90 +4,96 @@
 #include <stoss/idl/sequence.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 namespace stoss::service {
 
 void FramePort::publish(const Picture& picture) {
   const int readers = writer_.readers();
-  const bool is_new =
-      last_ != picture.moment() || last_scene_ != picture.scene_version() || readers > readers_;
+  const bool is_new = is_news(picture) || readers > readers_;
   readers_ = readers;
   if (readers == 0) drop_chunks_from(0);  // or the next reader would first be given an old picture
   if (readers == 0 || !is_new) return;
-  last_ = picture.moment();
-  last_scene_ = picture.scene_version();
+  published_ = picture.version();
   const std::size_t chunks = std::max<std::size_t>(
       1, (picture.disk_count() + stoss_v1_MAX_FRAME_BODIES - 1) / stoss_v1_MAX_FRAME_BODIES);
   drop_chunks_from(static_cast<std::uint32_t>(chunks));
   std::size_t body = 0;
   for (std::uint32_t chunk = 0; chunk < chunks_; ++chunk) {
     body = fill(picture, body);
-    write(chunk);
+    write(picture.moment(), chunk);
   }
   ++count_;
 }
 
-void FramePort::write(std::uint32_t chunk) {
-  const std::size_t rows = id_.size();
+void FramePort::write(const Moment& moment, std::uint32_t chunk) {
   wire::FrameChunk sample{};
   sample.chunk = chunk;
   sample.chunks = chunks_;
-  sample.epoch = last_->epoch;
-  sample.tick = last_->tick;
-  sample.at = translate::to_wire(last_->at);
-  idl::lend(sample.id, id_);
-  idl::lend(sample.x, x_);
-  idl::lend(sample.y, y_);
-  idl::lend(sample.vx, vx_);
-  idl::lend(sample.vy, vy_);
-  idl::lend(sample.angle, angle_.padded(rows));
-  idl::lend(sample.spin, spin_.padded(rows));
+  sample.epoch = moment.epoch;
+  sample.tick = moment.tick;
+  sample.at = translate::to_wire(moment.at);
+  idl::lend(sample.id, std::span(id_).first(rows_));
+  idl::lend(sample.x, std::span(x_).first(rows_));
+  idl::lend(sample.y, std::span(y_).first(rows_));
+  idl::lend(sample.vx, std::span(vx_).first(rows_));
+  idl::lend(sample.vy, std::span(vy_).first(rows_));
+  idl::lend(sample.angle, angle_.padded(rows_));
+  idl::lend(sample.spin, spin_.padded(rows_));
   idl::lend(sample.radius, radius_);
   static_cast<void>(writer_.write(sample));
 }
 
 std::size_t FramePort::fill(const Picture& picture, std::size_t body) {
-  id_.clear();
-  for (auto* column : {&x_, &y_, &vx_, &vy_, &radius_}) column->clear();
+  rows_ = 0;
+  radius_.clear();
   angle_.clear();
   spin_.clear();
-  const std::span flights(picture.flights());
-  FlightStates states;
-  while (body < flights.size() && id_.size() < stoss_v1_MAX_FRAME_BODIES) {
-    const std::size_t end = std::min(flights.size(), body + kFlightsAtOnce);
-    const bool is_full =
-        end - body == kFlightsAtOnce && id_.size() + kFlightsAtOnce <= stoss_v1_MAX_FRAME_BODIES;
-    if (is_full && !picture.has_grown() &&
-        states_at(flights.subspan(body).first<kFlightsAtOnce>(), picture.moment().at, states)) {
-      append(states);
-      body = end;
+  while (body < picture.size() && rows_ < id_.size()) {
+    if (append_flights(picture, body)) {
+      body += kFlightsAtOnce;
       continue;
     }
-    for (; body < end && id_.size() < stoss_v1_MAX_FRAME_BODIES; ++body) {
-      const Picture::Body& one = picture.bodies()[body];
-      if (!one.record.is_wall) append(picture.state_of(one), picture.has_grown());
+    const std::size_t end = std::min(picture.size(), body + kFlightsAtOnce);
+    for (; body < end && rows_ < id_.size(); ++body) {
+      if (!picture.is_wall(body)) append(picture.state_of(body), picture.has_grown());
     }
   }
   return body;
 }
 
-void FramePort::append(const FlightStates& states) {
-  id_.insert(id_.end(), states.id.begin(), states.id.end());
-  x_.insert(x_.end(), states.x.begin(), states.x.end());
-  y_.insert(y_.end(), states.y.begin(), states.y.end());
-  vx_.insert(vx_.end(), states.vx.begin(), states.vx.end());
-  vy_.insert(vy_.end(), states.vy.begin(), states.vy.end());
+bool FramePort::append_flights(const Picture& picture, std::size_t body) {
+  // Far enough ahead for memory to answer in time.
+  constexpr std::size_t kAhead = 2 * kFlightsAtOnce;
+  const std::span flights(picture.flights());
+  const bool is_room =
+      body + kFlightsAtOnce <= flights.size() && rows_ + kFlightsAtOnce <= id_.size();
+  if (!is_room || picture.has_grown()) return false;
+  const auto rows = [this](auto& column) {
+    return std::span(column).subspan(rows_).template first<kFlightsAtOnce>();
+  };
+  if (!states_at(flights.subspan(body).first<kFlightsAtOnce>(),
+                 picture.moment().at,
+                 {rows(x_), rows(y_), rows(vx_), rows(vy_)},
+                 flights.subspan(std::min(body + kAhead, flights.size())))) {
+    return false;
+  }
+  std::ranges::copy(std::span(picture.ids()).subspan(body).first<kFlightsAtOnce>(),
+                    rows(id_).begin());
+  rows_ += kFlightsAtOnce;
+  return true;
 }
 
 void FramePort::append(const engine::BodyState& state, bool has_grown) {
-  angle_.append(id_.size(), state.angle);
-  spin_.append(id_.size(), state.spin);
-  id_.push_back(state.id);
-  x_.push_back(state.position.x());
-  y_.push_back(state.position.y());
-  vx_.push_back(state.velocity.x());
-  vy_.push_back(state.velocity.y());
+  angle_.append(rows_, state.angle);
+  spin_.append(rows_, state.spin);
+  id_[rows_] = state.id;
+  x_[rows_] = state.position.x();
+  y_[rows_] = state.position.y();
+  vx_[rows_] = state.velocity.x();
+  vy_[rows_] = state.velocity.y();
+  ++rows_;
   if (has_grown) radius_.push_back(state.radius);
 }
 
@@ -119,8 +125,8 @@ void BodyPort::publish(const Picture& picture) {
 }
 
 void BodyPort::write(std::uint32_t slot, const Picture& picture) {
-  const Picture::Body* const body = picture.find(slots_[slot]);
-  if (body == nullptr) return;
+  const std::optional<Picture::Body> body = picture.find(slots_[slot]);
+  if (!body) return;
   wire::BodyState sample{};
   sample.slot = slot;
   sample.epoch = picture.moment().epoch;

@@ -6,14 +6,6 @@
 namespace stoss::service {
 namespace {
 
-/// Growth that was switched off leaves radii that no motion tells.
-bool tells_body(const BodyChange& change, bool effects_switched) {
-  if (change.kind == engine::ChangeKind::Spawned) return true;
-  const bool grows = change.motion.radius.high != 0;
-  return effects_switched && change.kind == engine::ChangeKind::Moved && !change.body.is_wall &&
-         !grows;
-}
-
 /// The lengths of the parts that a tick's changes are sent in, within the bounds of the types.
 std::vector<std::size_t> parts_of(std::span<const BodyChange> changes, bool effects_switched) {
   std::vector<std::size_t> lengths;

@@ -4,17 +4,21 @@
 #include <stoss/engine/motion.hpp>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <utility>
 
 namespace stoss::service {
 void Picture::begin(const EpochRecord& record) {
   bodies_.clear();
+  ids_.clear();
   flights_.clear();
   walls_ = 0;
   index_.clear();
   names_.clear();
   has_grown_ = false;
   bodies_.reserve(record.bodies.size());
+  ids_.reserve(record.bodies.size());
   flights_.reserve(record.bodies.size());
   index_.reserve(record.bodies.size());
   for (const BodyChange& body : record.bodies) put(body);
@@ -23,20 +27,27 @@ void Picture::begin(const EpochRecord& record) {
   effects_ = record.effects;
   moment_ = record.moment;
   state_hash_ = record.state_hash;
+  ++version_;
   ++scene_version_;
 }
 
 void Picture::apply(const TickRecord& record) {
-  for (const BodyChange& change : record.changes) {
-    if (change.kind == engine::ChangeKind::Removed) {
-      remove(change.motion.id);
+  std::span<const BodyChange> changes(record.changes);
+  while (!changes.empty()) {
+    const std::size_t moved = move(changes, record.effects.has_value());
+    changes = changes.subspan(moved);
+    if (moved != 0 || changes.empty()) continue;
+    if (changes.front().kind == engine::ChangeKind::Removed) {
+      remove(changes.front().motion.id);
     } else {
-      put(change);
+      put(changes.front());
     }
+    changes = changes.subspan(1);
   }
   if (record.zones) set_zones(*record.zones);
   name(record.names);
   moment_ = record.moment;
+  ++version_;
   if (record.effects) {
     effects_ = *record.effects;
     ++scene_version_;
@@ -44,18 +55,45 @@ void Picture::apply(const TickRecord& record) {
   if (record.changes_the_world()) state_hash_ = record.state_hash;
 }
 
+// Bodies lie anywhere in memory. Where those of the next changes are is looked up beforehand, so
+// that memory answers for several of them at a time.
+std::size_t Picture::move(std::span<const BodyChange> changes, bool effects_switched) {
+  constexpr std::size_t kTogether = 16;
+  std::array<std::size_t, kTogether> places;
+  std::size_t count = 0;
+  for (; count < std::min(kTogether, changes.size()); ++count) {
+    if (changes[count].kind != engine::ChangeKind::Moved) break;
+    const auto entry = index_.find(changes[count].motion.id);
+    if (entry == index_.end()) break;
+    places[count] = entry->second;
+    const auto* const flight = reinterpret_cast<const char*>(&flights_[entry->second]);
+    __builtin_prefetch(flight, 1);
+    __builtin_prefetch(flight + sizeof(Flight) - 1, 1);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    set(places[k], changes[k], tells_body(changes[k], effects_switched));
+  }
+  return count;
+}
+
 void Picture::put(const BodyChange& change) {
-  const Flight flight = flight_of(change.motion, change.body, arithmetic_, period_);
   const auto [entry, is_new] = index_.try_emplace(change.motion.id, bodies_.size());
   if (is_new) {
-    bodies_.push_back({change.motion, change.body});
-    flights_.push_back(flight);
+    bodies_.emplace_back();
+    ids_.push_back(change.motion.id);
+    flights_.emplace_back();
     if (change.body.is_wall) ++walls_;
-  } else {
-    bodies_[entry->second] = {change.motion, change.body};
-    flights_[entry->second] = flight;
+    ++scene_version_;
   }
-  if (is_new || change.body.is_wall) ++scene_version_;
+  set(entry->second, change, true);
+}
+
+void Picture::set(std::size_t i, const BodyChange& change, bool tells_body) {
+  const Flight flight = flight_of(change.motion, change.body, arithmetic_, period_);
+  const bool tells_motion = !is_flight(flight) || !is_flight(flights_[i]);
+  flights_[i] = flight;
+  if (tells_body || tells_motion) bodies_[i] = {change.motion, change.body};
+  if (change.body.is_wall) ++scene_version_;
   has_grown_ = has_grown_ || change.motion.radius.high != 0;
 }
 
@@ -80,10 +118,12 @@ void Picture::remove(engine::Id id) {
   if (bodies_[hole].record.is_wall) --walls_;
   if (hole + 1 != bodies_.size()) {
     bodies_[hole] = bodies_.back();
+    ids_[hole] = ids_.back();
     flights_[hole] = flights_.back();
-    index_[bodies_[hole].motion.id] = hole;
+    index_[ids_[hole]] = hole;
   }
   bodies_.pop_back();
+  ids_.pop_back();
   flights_.pop_back();
   names_.erase(id);
   ++scene_version_;
@@ -95,19 +135,25 @@ void Picture::name(const std::vector<NamedBody>& names) {
   }
 }
 
-std::vector<const Picture::Body*> Picture::ordered() const {
-  std::vector<const Body*> order;
-  order.reserve(bodies_.size());
-  for (const Body& body : bodies_) order.push_back(&body);
-  std::sort(order.begin(), order.end(), [](const Body* a, const Body* b) {
-    return a->motion.id < b->motion.id;
+std::vector<std::size_t> Picture::order() const {
+  std::vector<std::size_t> order(ids_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
+    return ids_[a] < ids_[b];
   });
   return order;
 }
 
-const Picture::Body* Picture::find(engine::Id id) const {
+Picture::Body Picture::body(std::size_t i) const {
+  Body body = bodies_[i];
+  if (is_flight(flights_[i])) body.motion = record_of(ids_[i], flights_[i]);
+  return body;
+}
+
+std::optional<Picture::Body> Picture::find(engine::Id id) const {
   const auto entry = index_.find(id);
-  return entry == index_.end() ? nullptr : &bodies_[entry->second];
+  if (entry == index_.end()) return std::nullopt;
+  return body(entry->second);
 }
 
 engine::BodyState Picture::state_of(const Body& body) const {

@@ -37,7 +37,6 @@ Publication::Publication(const dds::Participant& participant,
       outbox_(outbox),
       shared_(shared),
       started_(clock.now()),
-      frame_interval_(interval_of(options.frame_rate)),
       picture_(options.arithmetic, options.period),
       publisher_(participant, idl::partition_of(options.world)),
       motions_(publisher_, topics, options.arithmetic, options.period),
@@ -49,14 +48,14 @@ Publication::Publication(const dds::Participant& participant,
       status_writer_(idl::make_writer(publisher_, topics.status, idl::kStatusTopic)),
       mailboxes_(participant, topics, options.world),
       transfers_(mailboxes_),
-      next_frame_(started_),
+      frame_times_(interval_of(options.frame_rate), started_),
       next_housekeeping_(started_) {
   scene_.set_scene_name(options.scene_name);
 }
 
 void Publication::turn() {
   const Nanoseconds now = clock_.now();
-  Nanoseconds next = std::min(next_frame_, next_housekeeping_);
+  Nanoseconds next = std::min(frame_times_.next(), next_housekeeping_);
   if (transfers_.underway() > 0) next = std::min(next, now + kPumpInterval);
   handle_all(outbox_.take(std::max(next - now, Nanoseconds::zero())));
   transfers_.pump(clock_.now());
@@ -179,12 +178,7 @@ std::shared_ptr<AnswerContent> Publication::shared_world_content() {
 
 void Publication::publish_frames_if_due() {
   const Nanoseconds now = clock_.now();
-  if (now < next_frame_) return;
-  next_frame_ += frame_interval_;
-  if (next_frame_ < now) {  // the newest wins; those in between are never made
-    ++frames_late_;
-    next_frame_ = now + frame_interval_;
-  }
+  if (!frame_times_.take(now, frames_.is_news(picture_))) return;
   frames_.publish(picture_);
   watched_.publish(picture_);
   scene_.publish_if_due(picture_, now);

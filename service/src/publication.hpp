@@ -5,6 +5,7 @@
 
 #include "collision_port.hpp"
 #include "frame_port.hpp"
+#include "frame_times.hpp"
 #include "inbox.hpp"
 #include "mailboxes.hpp"
 #include "motion_port.hpp"
@@ -79,7 +80,6 @@ class Publication {
   Outbox& outbox_;
   const SharedCounters& shared_;
   const Nanoseconds started_;
-  const Nanoseconds frame_interval_;
 
   Picture picture_;
   dds::Publisher publisher_;
@@ -102,9 +102,8 @@ class Publication {
   std::uint64_t collisions_lost_ = 0;
   std::uint64_t zone_events_lost_ = 0;
   std::uint64_t records_put_off_ = 0;
-  std::uint64_t frames_late_ = 0;
   std::uint64_t replies_failed_ = 0;
-  Nanoseconds next_frame_{0};
+  FrameTimes frame_times_;
   Nanoseconds next_housekeeping_{0};
 };
 

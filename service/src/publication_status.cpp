@@ -99,7 +99,7 @@ void Publication::add_counters() {
   add("collisions_lost", collisions_lost_);
   add("zone_events_lost", zone_events_lost_);
   add("records_put_off", records_put_off_);
-  add("frames_late", frames_late_);
+  add("frames_late", frame_times_.late());
   add("malformed", shared_.malformed.load(std::memory_order_relaxed));
   add("mailboxes", mailboxes_.size());
   add("mailboxes_evicted", mailboxes_.evicted());

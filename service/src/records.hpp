@@ -50,6 +50,15 @@ struct BodyChange {
   engine::BodyRecord body;
 };
 
+/// Does it tell of the body more than its motion? Growth that was switched off leaves radii that no
+/// motion tells.
+[[nodiscard]] inline bool tells_body(const BodyChange& change, bool effects_switched) {
+  if (change.kind == engine::ChangeKind::Spawned) return true;
+  const bool grows = change.motion.radius.high != 0;
+  return effects_switched && change.kind == engine::ChangeKind::Moved && !change.body.is_wall &&
+         !grows;
+}
+
 using NamedBody = std::pair<engine::Id, std::string>;
 
 /// What happened since the record before.

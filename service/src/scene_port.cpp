@@ -34,10 +34,10 @@ void ScenePort::publish_if_due(const Picture& picture, Nanoseconds now) {
 
 ScenePort::Columns ScenePort::columns_of(const Picture& picture) {
   Columns columns;
-  for (const Picture::Body* body : picture.ordered()) {
-    const engine::BodyRecord& record = body->record;
+  picture.for_each_in_order([&](const Picture::Body& body) {
+    const engine::BodyRecord& record = body.record;
     if (record.is_wall) {
-      const engine::WallState wall = picture.wall_of(*body);
+      const engine::WallState wall = picture.wall_of(body);
       columns.wall_id.push_back(wall.id);
       columns.start_x.push_back(wall.start.x());
       columns.start_y.push_back(wall.start.y());
@@ -48,10 +48,10 @@ ScenePort::Columns ScenePort::columns_of(const Picture& picture) {
     } else {
       columns.disk_id.push_back(record.id);
       columns.disk_kind.push_back(idl::wire_value(translate::to_wire(record.kind)));
-      columns.disk_radius.push_back(picture.state_of(*body).radius);
+      columns.disk_radius.push_back(picture.state_of(body).radius);
       columns.disk_mass.push_back(record.mass);
     }
-  }
+  });
   for (const engine::ZoneState& zone : picture.zones()) {
     columns.zone_id.push_back(zone.id);
     columns.zone_x.push_back(zone.center.x());

@@ -5,9 +5,10 @@
 // without the thread of its world, and without what the same threads take for each event when
 // nobody reads frames.
 //
-//   publish_bench [--seconds S] [--rounds N] [--json FILE]
+//   publish_bench [--seconds S] [--rounds N] [--bodies B] [--json FILE]
 //
-// S (default 4) of each measurement, N (default 3) rounds; figures are medians. It runs itself as
+// S (default 4) of each measurement, N (default 3) rounds; figures are medians. B: of that many
+// bodies alone, in place of 10,000 and 100,000. It runs itself as
 // `publish_bench raw-frames BODIES` and `publish_bench raw-echo` for the raw counterparts.
 #include "bench/raw_dds.hpp"
 #include "bench/scenes.hpp"
@@ -51,6 +52,7 @@ constexpr auto kWarmUp = std::chrono::milliseconds(1500);
 struct Options {
   double seconds = 4;
   int rounds = 3;
+  std::vector<std::size_t> bodies{kCommandBodies, 100'000};
   std::string json;
 };
 
@@ -136,9 +138,20 @@ struct Look {
   double frames_late = 0;
 };
 
-Look look_at(const Process& daemon, WireClient& client) {
+tests::GotAnswer status_of(const Process& daemon, WireClient& client) {
   tests::GotAnswer got = client.ask(idl::Ask::kStatus);
   if (!got.status) throw std::runtime_error("the daemon does not answer: " + daemon.log());
+  return got;
+}
+
+/// Just after a tick: in between, the simulated time stands still while the real time goes on.
+Look look_at(const Process& daemon, WireClient& client) {
+  tests::GotAnswer got = status_of(daemon, client);
+  const std::uint64_t tick = got.status->tick;
+  while (got.status->tick == tick) {
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+    got = status_of(daemon, client);
+  }
   Look look{.sender = thread_times(daemon.pid(), "world"), .status = *got.status};
   look.frames_late = static_cast<double>(got.counters["frames_late"]);
   return look;
@@ -186,10 +199,7 @@ Figures frame_cost(const std::string& scene, std::size_t bodies, Seconds seconds
   const Stretch quiet(alone, alone_after);
   const Stretch busy(before, after);
   const double following_ns = quiet.others_ns / quiet.events;
-  const auto real = [](const wire::Status& s) {
-    return static_cast<double>(s.real_seconds) + 1e-9 * s.real_nanoseconds;
-  };
-  const double real_s = real(after.status) - real(before.status);
+  const double real_s = after.status.uptime - before.status.uptime;
   const double simulated_s = engine::seconds_between(translate::to_engine(before.status.at),
                                                      translate::to_engine(after.status.at));
   const double sent = busy.frames * static_cast<double>(bodies);
@@ -301,7 +311,7 @@ int run(const Options& options) {
   const Seconds seconds(options.seconds);
   nlohmann::ordered_json page;
   bool is_good = true;
-  for (const std::size_t bodies : {std::size_t{10'000}, std::size_t{100'000}}) {
+  for (const std::size_t bodies : options.bodies) {
     const std::string scene = write_scene(bodies);
     std::vector<Figures> rounds, commands;
     for (int round = 0; round < options.rounds; ++round) {
@@ -328,7 +338,8 @@ int run(const Options& options) {
 }
 
 int usage() {
-  std::fputs("usage: publish_bench [--seconds S] [--rounds N] [--json FILE]\n", stderr);
+  std::fputs("usage: publish_bench [--seconds S] [--rounds N] [--bodies B] [--json FILE]\n",
+             stderr);
   return 2;
 }
 
@@ -342,13 +353,15 @@ int main_of(const std::vector<std::string>& words) {
       options.seconds = std::strtod(words[i + 1].c_str(), nullptr);
     } else if (words[i] == "--rounds") {
       options.rounds = std::atoi(words[i + 1].c_str());
+    } else if (words[i] == "--bodies") {
+      options.bodies = {std::strtoul(words[i + 1].c_str(), nullptr, 10)};
     } else if (words[i] == "--json") {
       options.json = words[i + 1];
     } else {
       return usage();
     }
   }
-  if (!(options.seconds > 0) || options.rounds < 1) return usage();
+  if (!(options.seconds > 0) || options.rounds < 1 || options.bodies.front() == 0) return usage();
   return run(options);
 }
 

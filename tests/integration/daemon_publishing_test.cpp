@@ -5,6 +5,7 @@
 
 #include <stoss/engine/motion.hpp>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -130,6 +131,77 @@ TEST(DaemonPublishing, ASubscriberHoldsTheWholeWorldBitForBit) {
     return std::any_of(rows.begin(), rows.end(), [](auto& row) { return row.second == 10'000; });
   }));
 
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(), 0) << daemon.log();
+}
+
+/// The rows of the latest frames, by body.
+struct Frames {
+  explicit Frames(WireClient& client)
+      : topic(idl::make_topic(client.participant(), idl::kFrameTopic)),
+        reader(idl::make_reader(client.subscriber(), topic, idl::kFrameTopic)) {}
+
+  void take() {
+    reader.drain([&](const dds::Sample<wire::FrameChunk>& sample) {
+      if (!sample.valid()) return;
+      const wire::FrameChunk& chunk = sample.data;
+      for (std::size_t i = 0; i < chunk.id._length; ++i) {
+        states[chunk.id._buffer[i]] = {.id = chunk.id._buffer[i],
+                                       .instant = translate::to_engine(chunk.at),
+                                       .position = {chunk.x._buffer[i], chunk.y._buffer[i]},
+                                       .velocity = {chunk.vx._buffer[i], chunk.vy._buffer[i]},
+                                       .angle = idl::at_or(chunk.angle, i, 0.0),
+                                       .spin = idl::at_or(chunk.spin, i, 0.0)};
+      }
+    });
+  }
+  /// Waits until they tell what this one tells of each of its bodies.
+  [[nodiscard]] bool come_to(const GotAnswer& list) {
+    return WireClient::until(Seconds(10), [&] {
+      take();
+      return std::all_of(list.states.begin(), list.states.end(), [&](auto& state) {
+        const engine::BodyState& mine = states[state.id];
+        return mine.instant == list.at && mine.position == state.position &&
+               mine.velocity == state.velocity && mine.angle == state.angle &&
+               mine.spin == state.spin;
+      });
+    });
+  }
+
+  dds::Topic<wire::FrameChunk> topic;
+  dds::Reader<wire::FrameChunk> reader;
+  std::map<engine::Id, engine::BodyState> states;
+};
+
+TEST(DaemonPublishing, FramesTellWhatAListTells) {
+  Process daemon(stossd(kDomain, {"--scene", scene("gas-10000"), "--paused"}));
+  WireClient client(kDomain, "gas-10000", 1);
+  ASSERT_TRUE(client.connect()) << daemon.log();
+  Frames frames(client);
+  EXPECT_TRUE(frames.come_to(client.ask(Ask::kList)));
+  // The last bodies, which are walls, take the places of those that go; one that comes turns.
+  const engine::Vector2 place = frames.states[5].position;
+  EXPECT_EQ(client.command(Op::kRemove, Targets({5, 500, 9000})).reject.code, Code::Ok);
+  const GotReply spawned =
+      client.command(Op::kSpawn, SpawnDisks({{.position = place, .radius = 0.5, .spin = 1}}));
+  EXPECT_EQ(spawned.reject.code, Code::Ok) << spawned.reject.reason;
+  EXPECT_EQ(client.command(Op::kRunTo,
+                           [](auto& c) {
+                             c.target = {1, 12345};
+                           })
+                .reject.code,
+            Code::Ok);
+  ASSERT_TRUE(WireClient::until(Seconds(20), [&] {
+    const wire::Status status = client.status();
+    return status.at.seconds == 1 && status.at.fraction == 12345;
+  }));
+  EXPECT_TRUE(frames.come_to(client.ask(Ask::kList)));
+  // While the world stands still, too.
+  EXPECT_EQ(client.command(Op::kSetVelocity, Targets({7}, {0.5}, {-0.25})).reject.code, Code::Ok);
+  const GotAnswer changed = client.ask(Ask::kList);
+  EXPECT_TRUE(frames.come_to(changed));
+  EXPECT_EQ(frames.states[7].velocity, engine::Vector2(0.5, -0.25));
+  EXPECT_EQ(changed.states.size(), 9998U);
   daemon.signal(SIGTERM);
   EXPECT_EQ(daemon.wait(), 0) << daemon.log();
 }

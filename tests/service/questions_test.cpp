@@ -126,8 +126,8 @@ TEST_P(Pictures, FollowTheWorldBitForBit) {
     for (const TickRecord& record : all.ticks) picture.apply(record);
     ASSERT_EQ(picture.moment(), simulation->moment());
     simulation->world().for_each_disk([&](const engine::BodyState& state) {
-      const Picture::Body* const body = picture.find(state.id);
-      ASSERT_NE(body, nullptr);
+      const std::optional<Picture::Body> body = picture.find(state.id);
+      ASSERT_TRUE(body);
       const engine::BodyState mine = picture.state_of(*body);
       EXPECT_EQ(mine.position, state.position);
       EXPECT_EQ(mine.velocity, state.velocity);
