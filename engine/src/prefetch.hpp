@@ -11,6 +11,8 @@ namespace stoss::engine {
 inline void prefetch([[maybe_unused]] const void* where) {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(where);
+  // To GCC 12 a function that does nothing else has no effect, and calls of it are dropped.
+  asm volatile("" : : "r"(where));
 #endif
 }
 
