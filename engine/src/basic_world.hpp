@@ -204,6 +204,8 @@ class BasicWorld final : public WorldCore {
   void predict(Slot slot, bool changed);
   void predict_closely(Slot slot, bool changed);
   void renew_box(Slot slot, double margin);
+  bool cross(Slot slot);
+  void bring_on(Slot slot, const Event<S>& renewal);
   Aabb tight_box(Slot slot) const;
   Aabb tight_box(Slot slot, const Glance& here) const;
   double smallest_margin(Slot slot) const;
@@ -234,6 +236,7 @@ class BasicWorld final : public WorldCore {
   double time_to_renewal(Slot slot, const Sight& own, const SightClock& clock) const;
   double time_to_renewal_far_out(Slot slot) const;
   void offer(Slot holder, Slot changed, double soonest);
+  void join(Slot holder, Slot changed, float later);
   void sharpen(Slot slot);
   bool has_guess(Slot slot) const { return queue_.event_of(slot).kind == EventKind::Guess; }
   void renew_sight(Slot slot);
@@ -283,6 +286,7 @@ class BasicWorld final : public WorldCore {
   bool is_stale(const Event<S>& event) const;
   Slot next_slot();
   void prefetch_event(Slot slot) const;
+  void prefetch_cells_of_event(Slot slot) const;
   bool process(Slot slot, CollisionSink* sink);
   void resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink);
   bool is_squeezed(const Contact& contact) const;
@@ -507,7 +511,8 @@ class BasicWorld final : public WorldCore {
   struct Sights {
     std::vector<Sight> of_slot;
     Epoch<S> epoch;
-    std::uint64_t uses = 0;  ///< in this epoch
+    std::uint64_t uses = 0;              ///< in this epoch
+    mutable std::vector<double> bounds;  ///< of contacts with those that were looked at last
   };
   Sights sights_;
 

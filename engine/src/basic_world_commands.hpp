@@ -241,6 +241,7 @@ void BasicWorld<S, Laws>::make_room(std::size_t count) {
   slots_.reserve(all, id_of_slot());
   sights_.of_slot.reserve(all);
   queue_.admit(static_cast<Slot>(all - 1));
+  if (!all_pairs()) neighbours_.make_room(all);
 }
 
 template <class S, class Laws>

@@ -69,12 +69,27 @@ Slot BasicWorld<S, Laws>::next_slot() {
 /// Asks for what an event that comes up soon will read.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_event(Slot slot) const {
-  if (slot < 0) return;
+  constexpr std::size_t kNear = 4'000;  // bodies; chosen: their memory is at hand
+  if (slot < 0 || all_pairs() || bodies_.size() < kNear) return;
   const Slot partner = queue_.event_of(slot).partner;
   for (const Slot own : {slot, partner < 0 ? slot : partner}) {
     prefetch_all(at(own));
-    neighbours_.prefetch_place(own);
+    queue_.prefetch_line(own);
+    neighbours_.prefetch_standing(own);
     prefetch(&sights_.of_slot[index(own)]);
+  }
+}
+
+/// The same, of what can be told once that has come.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::prefetch_cells_of_event(Slot slot) const {
+  constexpr std::size_t kNear = 20'000;  // bodies; chosen: waiting costs less than asking
+  if (slot < 0 || all_pairs() || bodies_.size() < kNear) return;
+  const Slot partner = queue_.event_of(slot).partner;
+  for (const Slot own : {slot, partner < 0 ? slot : partner}) {
+    neighbours_.prefetch_place(own);
+    neighbours_.prefetch_list(own);
+    queue_.prefetch_beside(own);
   }
 }
 
@@ -119,8 +134,7 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   if (event.kind == EventKind::NeighbourRenewal) {
     ++counters_.renewals;
     if (has_no_place(slot)) return false;
-    renew_box(slot, next_margin(slot));
-    if (!foresee_newcomers(slot, event)) predict(slot, /*changed=*/true);
+    bring_on(slot, event);
     return true;
   }
   if constexpr (!Laws::kPlain) {
@@ -161,6 +175,21 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   resolve(due_, instant, sink);
   if (!at(slot).is_dynamic()) predict(slot, /*changed=*/false);
   return true;
+}
+
+// The body has come to the side of its box.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::bring_on(Slot slot, const Event<S>& renewal) {
+  if (!cross(slot)) {
+    renew_box(slot, next_margin(slot));
+    return predict(slot, /*changed=*/true);
+  }
+  prefetch_cells_of_event(queue_.upcoming());
+  if (!foresee_newcomers(slot, renewal)) predict(slot, /*changed=*/true);
+  const Slot straggler = neighbours_.straggler();
+  if (straggler < 0) return;
+  renew_box(straggler, next_margin(straggler));
+  predict(straggler, /*changed=*/true);
 }
 
 /// How far the body flies between two instants, m.
@@ -336,6 +365,7 @@ void BasicWorld<S, Laws>::resolve(const Contact& contact,
   ++counters_.collisions;
   if (outcome.regularised) ++counters_.regularised;
   if (a.is_dynamic()) predict(contact.a, /*changed=*/true);
+  prefetch_cells_of_event(queue_.upcoming());
   if (b.is_dynamic()) predict(contact.b, /*changed=*/true);
   if (sink == nullptr) return;
   Collision collision = describe(contact, instant, outcome);

@@ -431,14 +431,25 @@ void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
     }
   }
   if (all_pairs()) return;
+  const Glance here = glance_of(slot);
+  const double least = smallest_margin(slot);
   neighbours_.renew(slot,
                     role,
-                    tight_box(slot),
-                    glance_of(slot),
-                    {std::max(margin, smallest_margin(slot)),
-                     smallest_margin(slot),
-                     /*may_stand_in_cells=*/!Laws::kGrows},
+                    tight_box(slot, here),
+                    here,
+                    {std::max(margin, least), least, /*may_stand_in_cells=*/!Laws::kGrows},
                     [this, slot](Slot other) { return may_become_close(slot, other); });
+}
+
+/// Brings a disk that has come to the side of its cell to the next. False, and nothing is done,
+/// where its box should be renewed.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::cross(Slot slot) {
+  if (Laws::kGrows || is_periodic() || all_pairs() || !at(slot).is_dynamic()) return false;
+  const Glance here = glance_of(slot);
+  return neighbours_.cross(slot, here.x + here.x_low, here.y + here.y_low, [&](Slot other) {
+    return may_become_close(slot, other);
+  });
 }
 
 }  // namespace stoss::engine

@@ -31,6 +31,7 @@ bool BasicWorld<S, Laws>::has_sights() const {
 // once, and walls, are predicted closely.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
+  if (changed && neighbours_.is_overworked(slot)) renew_box(slot, next_margin(slot));
   const SightClock clock = read_sight_clock();
   const Sight& own = sights_.of_slot[index(slot)];
   const double renewal = time_to_renewal(slot, own, clock);
@@ -53,12 +54,12 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
 // that is not all, and it must be predicted from the beginning.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::foresee_newcomers(Slot slot, const Event<S>& crossing) {
-  if (!(crossing.until_guess >= 0) || !has_sights() || !neighbours_.has_only_crossed()) {
-    return false;
-  }
+  if (!(crossing.until_guess >= 0) || !has_sights()) return false;
   const SightClock clock = read_sight_clock();
+  const double smallest_held = sights_.of_slot[index(slot)].size * (1.0 / kHolderRatioMax);
   Foresight ahead;
-  look_at_all(slot, neighbours_.newcomers(slot), /*smallest=*/0, clock, ahead);
+  look_at_all(slot, neighbours_.newcomers(slot), smallest_held, clock, ahead);
+  if (ahead.has_others) return false;
   ahead.standing = &crossing;
   const auto first = static_cast<double>(crossing.until_guess);
   ahead.note(crossing.partner, first);
@@ -83,9 +84,14 @@ void BasicWorld<S, Laws>::look_at_listed(
     look_at_all(slot, list, smallest_held, clock, ahead);
   }
   if (!ahead.has_others) return;
-  for (const Slot other : list) {
-    if (!is_passed_over(sights_.of_slot[index(other)], smallest_held)) continue;
-    look_at_unlike(slot, other, changed, clock, renewal, ahead);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Sight& theirs = sights_.of_slot[index(list[i])];
+    if (!is_passed_over(theirs, smallest_held)) continue;
+    if (is_alone || !is_like(theirs)) {
+      look_at_unlike(slot, list[i], changed, clock, renewal, ahead);
+    } else if (changed) {  // a much smaller one, which holds the pair
+      offer(list[i], slot, seconds_of(sights_.bounds[i], clock));
+    }
   }
 }
 
@@ -106,11 +112,14 @@ void BasicWorld<S, Laws>::look_at_all(Slot slot,
 /// Asks for all that a prediction of the body will look at: one wait instead of a dozen.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_sights(Slot slot) const {
-  for (const Slot other : neighbours_.of(slot)) prefetch(&sights_.of_slot[index(other)]);
+  const auto all = neighbours_.of(slot);
+  for (const Slot other : all) prefetch(&sights_.of_slot[index(other)]);
+  constexpr std::size_t kMany = 24;  // of which most are much smaller, and are told of a change
+  if (all.size() < kMany) return;
+  for (const Slot other : all) queue_.prefetch_line(other);
 }
 
-// A neighbour that is a wall, a zone, fixed, at rest, or a much smaller disk, which holds the pair
-// itself.
+// A neighbour that is a wall, a zone, fixed or at rest; whoever is one that rests or is fixed.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
                                          Slot other,
@@ -118,13 +127,7 @@ void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
                                          const SightClock& clock,
                                          double renewal,
                                          Foresight& ahead) {
-  const Sight& own = sights_.of_slot[index(slot)];
-  const Sight& theirs = sights_.of_slot[index(other)];
   const auto soonest = [&] { return seconds_of(soonest_seen(slot, other, clock), clock); };
-  if (is_like(own) && is_like(theirs)) {  // the other is much smaller
-    if (changed) offer(other, slot, soonest());
-    return;
-  }
   const bool is_held = holds_prediction(slot, other);
   if (!is_held && !changed) return;
   if (see_each_other(slot, other)) {
@@ -160,9 +163,16 @@ SoonestTwo BasicWorld<S, Laws>::soonest_of(Slot slot,
                                            std::span<const Slot> list,
                                            double smallest,
                                            const SightClock& clock) const {
+  if (sights_.bounds.size() < list.size() + 4) sights_.bounds.resize(2 * list.size() + 4);
   const auto soonest = [&](const auto& common) {
-    return soonest_contacts(
-        slot, list, sights_.of_slot, smallest, clock.now, kScreenSlack<S>, common);
+    return soonest_contacts(slot,
+                            list,
+                            sights_.of_slot,
+                            smallest,
+                            clock.now,
+                            kScreenSlack<S>,
+                            common,
+                            sights_.bounds.data());
   };
   if constexpr (!Laws::kPlain) {
     if (is_periodic()) {
@@ -279,29 +289,47 @@ template <class S, class Laws>
 // A pair that `holder` holds has changed; it does not meet before `soonest`, s from now.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
-  const auto ids = id_lookup();
-  Event<S> theirs = queue_.event_of(holder);
-  const double horizon = horizon_of(theirs);
+  if (soonest == std::numeric_limits<double>::infinity()) return;
+  const Event<S>& standing = queue_.event_of(holder);
+  const double horizon = horizon_of(standing);
   const bool may_be_first =
       soonest < horizon && may_meet(changed, glance_of(changed), holder, horizon);
   if (may_be_first) {
     const auto event = event_with(holder, changed);
     if (!event) return;
-    if (earlier(*event, holder, theirs, holder, ids)) {
-      queue_.set(holder, *event, ids);
+    if (earlier(*event, holder, standing, holder, id_lookup())) {
+      queue_.set(holder, *event, id_lookup());
       return;
     }
     soonest = std::max(soonest, rough_seconds(event->at, now_));
   }
-  if (theirs.kind == EventKind::NeighbourRenewal) {  // what is kept there is no longer all
-    if (theirs.until_guess >= 0) queue_.forget_guess(holder);
-    return;
+  join(holder, changed, safe_difference(soonest, horizon));
+}
+
+// A contact with `changed` that comes so many seconds after the event of `holder`, or later, joins
+// what is known of the time after it.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::join(Slot holder, Slot changed, float later) {
+  Event<S> theirs = queue_.event_of(holder);
+  if (theirs.kind == EventKind::NeighbourRenewal) {
+    const bool is_anything_known = theirs.until_guess >= 0;
+    if (!is_anything_known || !(later < theirs.until_guess + theirs.clear_for)) return;
+    if (!is_like(sights_.of_slot[index(changed)])) {
+      theirs.until_guess = -1;  // of walls and the like nothing is known by sight
+    } else if (later < theirs.until_guess) {
+      theirs.clear_for = safe_difference(theirs.until_guess, later);
+      theirs.until_guess = later;
+      theirs.partner = changed;
+      theirs.partner_changes = at(changed).changes;
+      theirs.partner_id = at(changed).id;
+    } else {
+      theirs.clear_for = safe_difference(later, theirs.until_guess);
+    }
+  } else {
+    if (theirs.kind != EventKind::Guess || !(later < theirs.clear_for)) return;
+    theirs.clear_for = later;
   }
-  if (theirs.kind != EventKind::Guess) return;
-  const float clear_for = safe_difference(soonest, horizon);
-  if (!(clear_for < theirs.clear_for)) return;
-  theirs.clear_for = clear_for;
-  queue_.set(holder, theirs, ids);
+  queue_.amend(holder, theirs);
 }
 
 // The guess of a body has come up: asks the kernel.

@@ -105,6 +105,16 @@ class EventQueue {
   /// ahead.
   std::int32_t upcoming() const { return upcoming_; }
 
+  /// Asks for what the queue knows of a slot; once that has come, for what set() will read of
+  /// others.
+  void prefetch_line(std::int32_t slot) const { prefetch(&lines_[index(slot)]); }
+  void prefetch_beside(std::int32_t slot) const {
+    const Line& line = lines_[index(slot)];
+    if (line.home < 0) return;
+    prefetch(lines_.data() + line.place);
+    prefetch(lines_.data() + line.previous);
+  }
+
   /// Makes room for a slot, without an event.
   void admit(std::int32_t slot) {
     if (index(slot) >= lines_.size()) lines_.resize(index(slot) + 1);
@@ -117,8 +127,9 @@ class EventQueue {
     refile(slot, ids);
   }
 
-  /// Of a renewal: what the body is to do then, it is to find out then.
-  void forget_guess(std::int32_t slot) { line(slot).event.until_guess = -1; }
+  /// Changes what goes with the event of a slot. REQUIRES: not when, nor its kind and bodies'
+  /// order.
+  void amend(std::int32_t slot, const Event<S>& event) { line(slot).event = event; }
 
   template <class Ids>
   void erase(std::int32_t slot, const Ids& ids) {

@@ -61,7 +61,8 @@ SoonestTwo soonest_contacts(Slot slot,
                             double size_min,
                             double now,
                             double slack,
-                            const Common& common) {
+                            const Common& common,
+                            double* each) {
   const Present own = present_of(sights[static_cast<std::size_t>(slot)], now);
   const Four never = Four{} + std::numeric_limits<double>::infinity();
   SoonestByLane found;
@@ -73,6 +74,7 @@ SoonestTwo soonest_contacts(Slot slot,
     const auto count = static_cast<std::int64_t>(list.size() - i);
     const Columns there = gathered(see[four[0]], see[four[1]], see[four[2]], see[four[3]]);
     const Four soonest = soonest_contact<Four>(own, there.of, now, slack, common);
+    std::memcpy(each + i, &soonest, sizeof soonest);
     const FourWords is_other = ~(there.size >= size_min);
     const FourWords is_beyond = FourWords{0, 1, 2, 3} >= count;
     has_others |= is_other & ~is_beyond;
@@ -84,23 +86,37 @@ SoonestTwo soonest_contacts(Slot slot,
   return all;
 }
 
-template SoonestTwo soonest_contacts(
-    Slot, std::span<const Slot>, const std::vector<Sight>&, double, double, double, const Steady&);
-template SoonestTwo soonest_contacts(
-    Slot, std::span<const Slot>, const std::vector<Sight>&, double, double, double, const Growing&);
 template SoonestTwo soonest_contacts(Slot,
                                      std::span<const Slot>,
                                      const std::vector<Sight>&,
                                      double,
                                      double,
                                      double,
-                                     const Repeating<Steady>&);
+                                     const Steady&,
+                                     double*);
 template SoonestTwo soonest_contacts(Slot,
                                      std::span<const Slot>,
                                      const std::vector<Sight>&,
                                      double,
                                      double,
                                      double,
-                                     const Repeating<Growing>&);
+                                     const Growing&,
+                                     double*);
+template SoonestTwo soonest_contacts(Slot,
+                                     std::span<const Slot>,
+                                     const std::vector<Sight>&,
+                                     double,
+                                     double,
+                                     double,
+                                     const Repeating<Steady>&,
+                                     double*);
+template SoonestTwo soonest_contacts(Slot,
+                                     std::span<const Slot>,
+                                     const std::vector<Sight>&,
+                                     double,
+                                     double,
+                                     double,
+                                     const Repeating<Growing>&,
+                                     double*);
 
 }  // namespace stoss::engine

@@ -285,6 +285,8 @@ inline bool is_passed_over(const Sight& sight, double size_min) {
 /// Of the disks in a list that are like the rest and have at least this size, the soonest two
 /// contacts with the body of this slot, by soonest_contact(). REQUIRES: size_min >= 0; `list` is in
 /// memory up to the next multiple of four, and what stands there are slots of `sights`, whichever.
+/// `each` gets the soonest contact with each of the list, of those that are like the rest; as much
+/// memory is there.
 template <class Common>
 SoonestTwo soonest_contacts(Slot slot,
                             std::span<const Slot> list,
@@ -292,6 +294,7 @@ SoonestTwo soonest_contacts(Slot slot,
                             double size_min,
                             double now,
                             double slack,
-                            const Common& common);
+                            const Common& common,
+                            double* each);
 
 }  // namespace stoss::engine

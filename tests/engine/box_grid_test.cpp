@@ -61,7 +61,6 @@ TEST(BoxGrid, FindsEveryOverlapAndNothingElseUnderRandomWork) {
     }
     if (!random.one_in(3)) {
       items[number] = random_item(random);
-      grid.reserve(number);
       grid.insert(number, items[number].tight, items[number].margin);
     }
     const Aabb box = random.one_in(20) ? square(0, 0, 1e12) : random_item(random).tight;
@@ -73,7 +72,6 @@ TEST(BoxGrid, FindsBoxesThatOnlyTouch) {
   Random random(test::seed_of_run());
   for (int i = 0; i < 20'000; ++i) {
     BoxGrid grid;
-    grid.reserve(0);
     const double half = random.decades(-6, 6);
     const double x = random.either_sign(random.decades(-6, 6)) * half;
     const Aabb tight = square(x, 0, half);
@@ -89,7 +87,6 @@ TEST(BoxGrid, FindsBoxesThatOnlyTouch) {
 
 TEST(BoxGrid, WorksAtTheEndsOfTheRange) {
   BoxGrid grid;
-  grid.reserve(2);
   grid.insert(0, square(1e150, -1e150, 1e-150), 0);
   grid.insert(1, square(0, 0, 1e-150), 0);
   grid.insert(2, square(-1e150, 1e150, 1e150), 0);

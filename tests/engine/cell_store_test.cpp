@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace stoss::engine {
@@ -53,6 +54,23 @@ Range around(const Cell& cell, std::int64_t by) {
   return {cell.x - by, cell.y - by, cell.x + by, cell.y + by};
 }
 
+// The three cells on each of the four sides.
+void expect_found_beside(const CellStore& store,
+                         const std::map<std::int32_t, Cell>& cells,
+                         std::int32_t item) {
+  const Cell& own = cells.at(item);
+  for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    const Range side{own.x + (dx != 0 ? dx : -1),
+                     own.y + (dy != 0 ? dy : -1),
+                     own.x + (dx != 0 ? dx : 1),
+                     own.y + (dy != 0 ? dy : 1)};
+    std::vector<std::int32_t> room(kItems + 1);
+    room.resize(
+        static_cast<std::size_t>(store.collect_beside(item, dx, dy, room.data()) - room.data()));
+    ASSERT_EQ(sorted(room), items_in(cells, side, own.level, item));
+  }
+}
+
 void expect_found(const CellStore& store,
                   const std::map<std::int32_t, Cell>& cells,
                   std::int32_t item,
@@ -79,13 +97,20 @@ TEST(CellStore, FindsWhatStandsInCellsUnderRandomWork) {
   for (int i = 0; i < 30'000; ++i) {
     const auto item = static_cast<std::int32_t>(random.below(kItems));
     ASSERT_EQ(store.contains(item), cells.contains(item));
-    if (cells.contains(item)) {
-      store.remove(item);
+    if (cells.contains(item) && random.one_in(2)) {
+      const auto dx = static_cast<std::int64_t>(random.below(5)) - 2;
+      const auto dy = static_cast<std::int64_t>(random.below(5)) - 2;
+      store.move(item, dx, dy);
+      cells[item].x += dx;
+      cells[item].y += dy;
+    } else {
+      if (cells.contains(item)) store.remove(item);
       cells.erase(item);
+      if (random.one_in(4)) continue;
+      cells[item] = random_cell(random);
+      store.insert(item, cells[item]);
     }
-    if (random.one_in(4)) continue;
-    cells[item] = random_cell(random);
-    store.insert(item, cells[item]);
+    ASSERT_NO_FATAL_FAILURE(expect_found_beside(store, cells, item));
     Range near = around(cells[item], static_cast<std::int64_t>(random.below(3)));
     near.x0 += static_cast<std::int64_t>(random.below(2));
     ASSERT_NO_FATAL_FAILURE(expect_found(store, cells, item, near));

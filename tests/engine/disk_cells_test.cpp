@@ -23,7 +23,11 @@ constexpr std::int32_t kDisks = 300;
 struct Disk {
   double radius = 0;
   DiskCells::Cage cage;
+  std::int32_t level = 0;
 };
+Disk disk_in(const DiskCells& cells, std::int32_t disk, double radius) {
+  return {radius, cells.cage_of(disk), cells.cell_of(disk).level};
+}
 
 Aabb reach_of(const Disk& disk) {
   const double half = disk.cage.half + disk.radius;
@@ -43,12 +47,12 @@ void expect_known(const DiskCells& cells,
   const Disk& own = disks.at(disk);
   const auto near = around(cells, disk);
   std::set<std::int32_t> found;
-  cells.find(reach_of(own), own.cage.cell.level, [&](std::int32_t other) {
+  cells.find(reach_of(own), own.level, [&](std::int32_t other) {
     ASSERT_TRUE(found.insert(other).second);
   });
   for (const auto& [number, other] : disks) {
     if (number == disk || !overlaps(reach_of(own), reach_of(other))) continue;
-    const bool same_level = other.cage.cell.level == own.cage.cell.level;
+    const bool same_level = other.level == own.level;
     // In cells side by side cages overlap; farther off they need not be known.
     const double apart =
         std::max(std::abs(own.cage.x - other.cage.x), std::abs(own.cage.y - other.cage.y));
@@ -69,26 +73,28 @@ TEST(DiskCells, OverlookNobodyUnderRandomWork) {
   int moved = 0;
   for (int i = 0; i < 20'000; ++i) {
     const auto disk = static_cast<std::int32_t>(random.below(kDisks));
-    const double x = random.uniform(-12, 12), y = random.uniform(-12, 12);
+    double x = random.uniform(-12, 12), y = random.uniform(-12, 12);
     ASSERT_EQ(cells.contains(disk), disks.contains(disk));
     if (!disks.contains(disk)) {
       const double radius = random.one_in(3) ? 0.9 : random.uniform(0.4, 0.5);
-      const auto cage = cells.enter(disk, x, y, radius, 0);
-      if (!cage) continue;
-      disks[disk] = {radius, *cage};
+      if (!cells.enter(disk, x, y, radius, 0)) continue;
+      disks[disk] = disk_in(cells, disk, radius);
     } else if (random.one_in(3)) {
       cells.leave(disk);
       disks.erase(disk);
       continue;
     } else {
-      const DiskCells::Cell before = cells.cell_of(disk);
       const auto known = around(cells, disk);
-      const auto cage = cells.move(disk, x, y);
-      if (!cage) continue;
+      const bool is_near = random.one_in(2);
+      const DiskCells::Cage cage = cells.cage_of(disk);
+      if (is_near) x = cage.x + random.uniform(-2, 2) * cage.half;
+      if (is_near) y = cage.y + random.uniform(-2, 2) * cage.half;
+      const auto step = cells.move(disk, x, y);
+      if (!step) continue;
       ++moved;
-      disks[disk].cage = *cage;
+      disks[disk] = disk_in(cells, disk, disks[disk].radius);
       std::vector<std::int32_t> room(kDisks + 1);
-      const std::int32_t* const end = cells.collect_new_around(disk, before, room.data());
+      const std::int32_t* const end = cells.collect_new_around(disk, *step, room.data());
       std::set<std::int32_t> all(room.cbegin(), room.cbegin() + (end - room.data()));
       for (const std::int32_t newcomer : all) EXPECT_TRUE(around(cells, disk).contains(newcomer));
       all.insert(known.begin(), known.end());
@@ -109,44 +115,107 @@ TEST(DiskCells, CagesApartByTwoCellsLeaveRoomForTwoDisks) {
     DiskCells cells;
     const double radius = random.decades(-9, 9);
     const double far = radius * random.decades(0, 11);
-    const auto a = cells.enter(0, far, 0, radius, 0);
-    ASSERT_TRUE(a.has_value());
-    const auto b = cells.enter(1, a->x + 4 * a->half, 0, radius, 0);
-    ASSERT_TRUE(b.has_value());
-    if (b->cell.x - a->cell.x != 2) continue;
-    EXPECT_GT(b->x - b->half - (a->x + a->half), 2 * radius);
+    ASSERT_TRUE(cells.enter(0, far, 0, radius, 0));
+    const DiskCells::Cage a = cells.cage_of(0);
+    ASSERT_TRUE(cells.enter(1, a.x + 4 * a.half, 0, radius, 0));
+    const DiskCells::Cage b = cells.cage_of(1);
+    if (cells.cell_of(1).x - cells.cell_of(0).x != 2) continue;
+    EXPECT_GT(b.x - b.half - (a.x + a.half), 2 * radius);
   }
 }
 
 TEST(DiskCells, GrowWhereDisksFlyFar) {
   DiskCells cells;
   double x = 0;
-  const auto first = cells.enter(0, x, 0, 0.5, 0);
-  ASSERT_TRUE(first.has_value());
-  double half = first->half;
+  ASSERT_TRUE(cells.enter(0, x, 0, 0.5, 0));
+  const double first = cells.cage_of(0).half;
+  double half = first;
   for (int i = 0; i < 3000; ++i) {
     x += 2 * half;
-    auto cage = cells.move(0, x, 0);
-    if (!cage) {  // its level is given up
+    if (!cells.move(0, x, 0)) {  // its level is given up
       cells.leave(0);
-      cage = cells.enter(0, x, 0, 0.5, 0);
-      ASSERT_TRUE(cage.has_value());
+      ASSERT_TRUE(cells.enter(0, x, 0, 0.5, 0));
     }
-    half = cage->half;
+    half = cells.cage_of(0).half;
   }
-  EXPECT_GT(half, 10 * first->half);
+  EXPECT_GT(half, 10 * first);
 }
 
 TEST(DiskCells, RefuseWhatDoesNotSuitThem) {
   DiskCells cells;
-  EXPECT_FALSE(cells.enter(0, 1e13, 0, 0.5, 0).has_value());  // beyond their numbers
+  EXPECT_FALSE(cells.enter(0, 1e13, 0, 0.5, 0));  // beyond their numbers
   EXPECT_FALSE(cells.contains(0));
-  EXPECT_FALSE(cells.enter(0, 0, 0, 0.5, 1).has_value());  // too fast for them
+  EXPECT_FALSE(cells.enter(0, 0, 0, 0.5, 1));  // too fast for them
   for (std::int32_t disk = 1; disk < 10; ++disk) {
-    EXPECT_TRUE(cells.enter(disk, 3.0 * disk, 0, 0.5, 0).has_value());
+    EXPECT_TRUE(cells.enter(disk, 3.0 * disk, 0, 0.5, 0));
   }
-  EXPECT_FALSE(cells.enter(0, 0, 0, 50, 0).has_value());  // much larger than most
-  EXPECT_TRUE(cells.enter(0, 0, 0, 0.4, 0).has_value());
+  EXPECT_FALSE(cells.enter(0, 0, 0, 50, 0));  // much larger than most
+  EXPECT_TRUE(cells.enter(0, 0, 0, 0.4, 0));
+}
+
+// A disk that hardly moves does not hold a level back that has been given up.
+TEST(DiskCells, NameStragglersUntilTheirLevelIsEmpty) {
+  DiskCells cells;
+  ASSERT_TRUE(cells.enter(10, 0, 9, 5, 0));
+  EXPECT_EQ(cells.straggler(), -1);
+  for (std::int32_t disk = 11; disk < 40; ++disk) {  // the large one is one of few now
+    ASSERT_TRUE(cells.enter(disk, 3.0 * disk, 0, 0.5, 0));
+  }
+  std::int32_t straggler = -1;
+  for (int i = 0; i < 100 && straggler < 0; ++i) straggler = cells.straggler();
+  ASSERT_EQ(straggler, 10);
+  EXPECT_FALSE(cells.move(10, 0, 9).has_value());
+  cells.leave(10);
+  EXPECT_FALSE(cells.enter(10, 0, 9, 5, 0));
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(cells.straggler(), -1);
+}
+
+// Bystanders are all whose boxes meet the disk's own, however they came, and few are asked for
+// twice.
+TEST(DiskCells, KnowWhoeverStandsBesideThem) {
+  Random random(test::seed_of_run());
+  DiskCells cells;
+  std::map<std::int32_t, Disk> disks;
+  for (std::int32_t disk = 0; disk < 60; ++disk) {
+    const double x = random.uniform(-12, 12), y = random.uniform(-12, 12);
+    if (cells.enter(disk, x, y, 0.45, 0)) disks[disk] = disk_in(cells, disk, 0.45);
+  }
+  std::map<std::int32_t, Aabb> boxes;
+  int asked = 0;
+  const auto search = [&](const Aabb& area, std::vector<std::int32_t>& found) {
+    ++asked;
+    for (const auto& [number, box] : boxes) {
+      if (overlaps(box, area)) found.push_back(number);
+    }
+  };
+  constexpr int kTries = 5000;
+  for (int i = 0; i < kTries; ++i) {
+    if (random.one_in(5)) {
+      const auto number = static_cast<std::int32_t>(random.below(40));
+      if (boxes.contains(number)) {
+        cells.note_bystander(boxes[number]);
+        boxes.erase(number);
+      } else {
+        const double x = random.uniform(-12, 12), y = random.uniform(-12, 12);
+        const double half = random.one_in(10) ? 1e6 : random.decades(-3, 1);
+        boxes[number] = {x - half, y - half, x + half, y + half};
+        cells.note_bystander(boxes[number]);
+      }
+    }
+    const auto disk = static_cast<std::int32_t>(random.below(60));
+    if (!disks.contains(disk)) continue;
+    if (random.one_in(2)) cells.move(disk, random.uniform(-12, 12), random.uniform(-12, 12));
+    const auto known = cells.bystanders(disk, search);
+    if (!known) continue;
+    if (cells.is_by_itself(disk)) {
+      EXPECT_TRUE(known->empty());
+    }
+    for (const auto& [number, box] : boxes) {
+      if (!overlaps(box, cells.box_of(disk))) continue;
+      ASSERT_NE(std::find(known->begin(), known->end(), number), known->end());
+    }
+  }
+  EXPECT_LT(asked, kTries / 2);
 }
 
 }  // namespace

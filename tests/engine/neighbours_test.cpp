@@ -74,9 +74,11 @@ void expect_everybody_known(bool in_cells) {
       const Body body = random_body(random, slot);
       if (known == slots.end()) slots.push_back(slot);
       const Margin margin{random.uniform(0, 2), 1e-6, in_cells};
-      neighbours.renew(slot, role_of(slot), body.tight, body.here, margin, [slot](Slot other) {
-        return interact(slot, other);
-      });
+      const auto interacts = [slot](Slot other) { return interact(slot, other); };
+      const bool is_known = known != slots.end();
+      if (!is_known || !neighbours.cross(slot, body.here.x, body.here.y, interacts)) {
+        neighbours.renew(slot, role_of(slot), body.tight, body.here, margin, interacts);
+      }
       if (random.one_in(3)) neighbours.note_event(slot);
       const auto [anchor, leeway] = neighbours.leeway(slot);
       EXPECT_LE(std::abs(anchor.x + anchor.x_low - body.here.x), leeway + 1e-13);
@@ -98,6 +100,9 @@ TEST(Neighbours, AreAllKnownWhereNobodyMayStandInCells) {
 TEST(Neighbours, NewcomersAreThoseThatWereNotKnown) {
   Random random(test::seed_of_run());
   Neighbours neighbours;
+  const auto interacts_with = [](Slot slot) {
+    return [slot](Slot other) { return other != slot; };
+  };
   const auto renew = [&](Slot slot, double x, double y) {
     Glance here;
     here.x = x;
@@ -107,7 +112,7 @@ TEST(Neighbours, NewcomersAreThoseThatWereNotKnown) {
                      {x - 0.5, y - 0.5, x + 0.5, y + 0.5},
                      here,
                      {0.5, 1e-6, true},
-                     [slot](Slot other) { return other != slot; });
+                     interacts_with(slot));
     neighbours.note_event(slot);
   };
   for (Slot slot = 0; slot < 60; ++slot) {
@@ -119,8 +124,11 @@ TEST(Neighbours, NewcomersAreThoseThatWereNotKnown) {
     const auto before = neighbours.of(slot);
     const std::vector<Slot> known(before.begin(), before.end());
     const Neighbours::Anchor at = neighbours.leeway(slot).anchor;
-    renew(slot, at.x + random.uniform(-1.2, 1.2), at.y + random.uniform(-1.2, 1.2));
-    if (!neighbours.has_only_crossed()) continue;
+    const double x = at.x + random.uniform(-1.2, 1.2), y = at.y + random.uniform(-1.2, 1.2);
+    if (!neighbours.cross(slot, x, y, interacts_with(slot))) {
+      renew(slot, x, y);
+      continue;
+    }
     ++crossings;
     const auto newcomers = neighbours.newcomers(slot);
     for (const Slot other : neighbours.of(slot)) {

@@ -101,20 +101,23 @@ void expect_four_at_a_time_as_one_by_one(const Common& common) {
     std::vector<Slot> room(32);  // beyond the list, too, are slots
     for (Slot& other : room) other = static_cast<Slot>(random.below(sights.size()));
     const std::span<const Slot> list(room.data(), random.below(30));
+    std::vector<double> each(room.size());
+    const auto found = soonest_contacts(
+        slot, list, sights, kSizeMin, kNow, kScreenSlack<double>, common, each.data());
     SoonestTwo expected;
-    for (const Slot other : list) {
-      const Sight& sight = sights[static_cast<std::size_t>(other)];
+    for (std::size_t j = 0; j < list.size(); ++j) {
+      const Sight& sight = sights[static_cast<std::size_t>(list[j])];
+      const double soonest = soonest_contact(
+          sights[static_cast<std::size_t>(slot)], sight, kNow, kScreenSlack<double>, common);
+      if (is_like(sight)) {
+        ASSERT_EQ(each[j], soonest);
+      }
       if (is_passed_over(sight, kSizeMin)) {
         expected.has_others = true;
       } else {
-        expected.note(
-            other,
-            soonest_contact(
-                sights[static_cast<std::size_t>(slot)], sight, kNow, kScreenSlack<double>, common));
+        expected.note(list[j], soonest);
       }
     }
-    const auto found =
-        soonest_contacts(slot, list, sights, kSizeMin, kNow, kScreenSlack<double>, common);
     ASSERT_EQ(found.first, expected.first);
     ASSERT_EQ(found.second, expected.second);
     ASSERT_EQ(found.has_others, expected.has_others);

@@ -21,7 +21,7 @@ void BoxGrid::find_on(const Level& level, const Extent& box) const {
   const double right = (box.x + reach_x) * level.inverse;
   const double high = (box.y + reach_y) * level.inverse;
   const auto look_at = [&](std::int32_t item) {
-    if (overlaps(places_[index(item)], box)) found_.push_back(item);
+    if (overlaps(places_.of(item), box)) found_.push_back(item);
   };
   // Where it would look at more cells than there are, it looks at all. So it does for NaN.
   if (!((right - left) * (high - low) <= 64 + store_.cells_max())) {
@@ -58,7 +58,7 @@ BoxGrid::Level& BoxGrid::level_for(double half) {
 void BoxGrid::insert(std::int32_t item, const Aabb& tight, double margin) {
   const Extent extent(tight);
   const double half = std::max(extent.half_x, extent.half_y) + margin;
-  Place& entering = place(item);
+  Place& entering = places_.make(item);
   entering.x = extent.x;
   entering.y = extent.y;
   entering.margin = margin;

@@ -15,7 +15,7 @@
 // rounding of its coordinates, so cell numbers fit into 54 bits.
 
 #include "broad_phase/cell_store.hpp"
-#include "broad_phase/place.hpp"
+#include "broad_phase/place_table.hpp"
 
 #include <cstdint>
 #include <span>
@@ -25,17 +25,15 @@ namespace stoss::engine {
 
 class BoxGrid {
  public:
-  void reserve(std::int32_t item) {
-    if (index(item) >= places_.size()) places_.resize(index(item) + 1);
-  }
-  /// REQUIRES: reserved. What the grid does not know of it is the caller's to change.
-  Place& place(std::int32_t item) { return places_[index(item)]; }
-  const Place& place(std::int32_t item) const { return places_[index(item)]; }
+  /// The places of all that stand here, and of whatever else the caller keeps with them. What the
+  /// grid does not know of a place is the caller's to change.
+  PlaceTable& places() { return places_; }
+  const PlaceTable& places() const { return places_; }
 
   /// Puts `item` in with a box that holds `tight` grown by `margin` on every side. REQUIRES: not in
-  /// the grid, reserved; `tight` a square.
+  /// the grid; `tight` a square.
   void insert(std::int32_t item, const Aabb& tight, double margin);
-  /// REQUIRES: in the grid.
+  /// Its place stays. REQUIRES: in the grid.
   void remove(std::int32_t item);
   bool contains(std::int32_t item) const { return store_.contains(item); }
 
@@ -55,7 +53,7 @@ class BoxGrid {
   Level& level_for(double half);
   void find_on(const Level& level, const Extent& box) const;
 
-  std::vector<Place> places_;
+  PlaceTable places_;
   CellStore store_;
   std::vector<Level> levels_;                // those that have items
   mutable std::vector<std::int32_t> found_;  // by the last search

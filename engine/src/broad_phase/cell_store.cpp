@@ -7,13 +7,24 @@ namespace stoss::engine {
 
 void CellStore::insert(std::int32_t item, const Cell& cell) {
   if (index(item) >= links_.size()) links_.resize(index(item) + 1);
-  const Cell key{cell.x >> kBlockShift, cell.y >> kBlockShift, cell.level};
-  std::int32_t block = table_[entry_of(key)].block;
-  if (block == kNone) block = make_block(key);
-  Head& head = heads_[index(block)];
-  ++head.items;
-  const auto at = static_cast<std::size_t>((cell.y & (kBlockSide - 1)) * kBlockSide +
-                                           (cell.x & (kBlockSide - 1)));
+  const std::int32_t block = block_for({cell.x >> kBlockShift, cell.y >> kBlockShift, cell.level});
+  items_max_ = std::max(items_max_, ++heads_[index(block)].items);
+  put_in(item, block, in_block(cell));
+}
+
+void CellStore::remove(std::int32_t item) {
+  const std::int32_t block = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
+  take_out(item);
+  if (--heads_[index(block)].items == 0) drop_block(block);
+}
+
+void CellStore::move_far(std::int32_t item, std::int64_t dx, std::int64_t dy) {
+  const Cell from = cell_of(item);
+  remove(item);
+  insert(item, {from.x + dx, from.y + dy, from.level});
+}
+
+void CellStore::put_in(std::int32_t item, std::int32_t block, std::size_t at) {
   links_[index(item)] = {
       block * static_cast<std::int32_t>(kBlockCells) + static_cast<std::int32_t>(at), kNone};
   std::int32_t* const places = &blocks_[index(block)].items[2 * at];
@@ -23,15 +34,14 @@ void CellStore::insert(std::int32_t item, const Cell& cell) {
     places[1] = item;
   } else {
     links_[index(item)].next = std::exchange(links_[index(places[1])].next, item);
-    head.crowded |= std::uint64_t{1} << at;
+    heads_[index(block)].crowded |= std::uint64_t{1} << at;
   }
 }
 
-void CellStore::remove(std::int32_t item) {
+void CellStore::take_out(std::int32_t item) {
   const Link link = std::exchange(links_[index(item)], Link{});
   const std::size_t block = index(link.cell) / kBlockCells;
   const std::size_t at = index(link.cell) % kBlockCells;
-  Head& head = heads_[block];
   std::int32_t* const places = &blocks_[block].items[2 * at];
   if (places[0] == item) {  // the second takes its place, and the next of those behind the second's
     places[0] = places[1];
@@ -44,9 +54,24 @@ void CellStore::remove(std::int32_t item) {
     links_[index(before)].next = link.next;
   }
   if (places[1] == kNone || links_[index(places[1])].next == kNone) {
-    head.crowded &= ~(std::uint64_t{1} << at);
+    heads_[block].crowded &= ~(std::uint64_t{1} << at);
   }
-  if (--head.items == 0) drop_block(static_cast<std::int32_t>(block));
+}
+
+bool CellStore::forget_notes(const Range& cells, std::int32_t level) {
+  constexpr std::int64_t kMany = 8;  // along an axis
+  const Range blocks{cells.x0 >> kBlockShift,
+                     cells.y0 >> kBlockShift,
+                     cells.x1 >> kBlockShift,
+                     cells.y1 >> kBlockShift};
+  if (blocks.x1 - blocks.x0 >= kMany || blocks.y1 - blocks.y0 >= kMany) return false;
+  for (std::int64_t y = blocks.y0; y <= blocks.y1; ++y) {
+    for (std::int64_t x = blocks.x0; x <= blocks.x1; ++x) {
+      const std::int32_t block = table_[entry_of({x, y, level})].block;
+      if (block != kNone) heads_[index(block)].note.as_of = 0;
+    }
+  }
+  return true;
 }
 
 std::int32_t* CellStore::collect_hanging(std::size_t block,
@@ -75,6 +100,19 @@ std::int32_t* CellStore::collect_hanging_across(std::int32_t item, std::int32_t*
   return to;
 }
 
+std::int32_t CellStore::some_item_of(std::int32_t level) {
+  constexpr int kFew = 16;
+  for (int i = 0; i < kFew; ++i) {
+    looked_at_ = (looked_at_ + 1) & (table_.size() - 1);
+    const Entry& entry = table_[looked_at_];
+    if (entry.block == kNone || entry.key.level != level) continue;
+    for (const std::int32_t item : blocks_[index(entry.block)].items) {
+      if (item != kNone) return item;
+    }
+  }
+  return kNone;
+}
+
 std::uint64_t CellStore::take_looks(std::int32_t level) {
   std::uint64_t looks = 0;
   for (const Entry& entry : table_) {
@@ -95,7 +133,8 @@ std::int32_t CellStore::make_block(const Cell& key) {
     free_blocks_.pop_back();
   }
   blocks_[index(block)].items.fill(kNone);
-  heads_[index(block)] = {key, 0, 0, 0, {}};
+  const PooledList inherited = heads_[index(block)].note.list;
+  heads_[index(block)] = {key, 0, 0, 0, {}, {0, inherited}};
   if (2 * ++entries_ > table_.size()) grow_table();
   table_[entry_of(key)] = {key, block};
   link(block, block);

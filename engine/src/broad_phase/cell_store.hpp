@@ -9,6 +9,7 @@
 // Invariants: 1. a block in the table holds at least one item; 2. where a cell's second place is
 // empty nothing hangs behind it, and where the first is empty the second is.
 
+#include "broad_phase/list_pool.hpp"
 #include "prefetch.hpp"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ class CellStore {
   static constexpr int kBlockShift = 3;
   static constexpr std::int64_t kBlockSide = 1 << kBlockShift;  ///< in cells
   static constexpr std::size_t kBlockCells = kBlockSide * kBlockSide;
+  static constexpr int kSide = kBlockSide;
 
   /// A cell, by its numbers along the axes, among those of its level, which may be of any size.
   struct Cell {
@@ -41,10 +43,24 @@ class CellStore {
     std::int64_t y1 = 0;
   };
 
+  /// So many items are to come.
+  void make_room(std::size_t items) { links_.reserve(items); }
   /// REQUIRES: in no cell.
   void insert(std::int32_t item, const Cell& cell);
   /// REQUIRES: in a cell.
   void remove(std::int32_t item);
+  /// From its cell to one that is so many cells away. REQUIRES: in a cell.
+  void move(std::int32_t item, std::int64_t dx, std::int64_t dy) {
+    const auto cell = static_cast<std::uint32_t>(links_[index(item)].cell);
+    const auto at = static_cast<std::int64_t>(cell % kBlockCells);
+    const std::int64_t x = at % kBlockSide + dx;
+    const std::int64_t y = at / kBlockSide + dy;
+    if (((x | y) & ~(kBlockSide - 1)) != 0) return move_far(item, dx, dy);
+    take_out(item);
+    put_in(item,
+           static_cast<std::int32_t>(cell / kBlockCells),
+           static_cast<std::size_t>(y * kBlockSide + x));
+  }
   bool contains(std::int32_t item) const {
     return index(item) < links_.size() && links_[index(item)].cell != kNone;
   }
@@ -58,9 +74,11 @@ class CellStore {
             block.level};
   }
 
-  /// Asks for what collect_around() will read of an item's block, and then of the cells.
+  /// Asks for what tells where an item is; once that has come, for what collect_around() will read
+  /// of its block, and of the cells.
+  void prefetch_link(std::int32_t item) const { prefetch(links_.data() + item); }
   void prefetch_block(std::int32_t item) const {
-    prefetch(&heads_[index(links_[index(item)].cell) / kBlockCells]);
+    prefetch_all(heads_[index(links_[index(item)].cell) / kBlockCells]);
   }
   void prefetch_around(std::int32_t item) const {
     const std::size_t cell = index(links_[index(item)].cell);
@@ -72,8 +90,8 @@ class CellStore {
   }
 
   /// Writes all items but one that are in cells near it; returns where it has stopped. REQUIRES: in
-  /// a cell; the range lies within two cells of its own, on its level; room at `to` for all items
-  /// that there are and one more.
+  /// a cell; the range lies within two cells of its own, on its level; room at `to` for
+  /// all items of the blocks that the range meets and one more.
   std::int32_t* collect_near(std::int32_t item, const Range& cells, std::int32_t* to) const {
     const std::int32_t own = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
     const Head& head = heads_[index(own)];
@@ -108,6 +126,38 @@ class CellStore {
     return crowded == 0 ? to : collect_hanging(cell / kBlockCells, crowded, item, to);
   }
 
+  /// How many collect_around() writes at most, with the one more.
+  std::size_t around_max() const { return 4 * static_cast<std::size_t>(items_max_) + 1; }
+
+  /// The same for the three cells on one side of its own: dx or dy is 1 or -1, the other 0.
+  std::int32_t* collect_beside(std::int32_t item, int dx, int dy, std::int32_t* to) const {
+    const auto cell = static_cast<std::uint32_t>(links_[index(item)].cell);
+    const auto at = static_cast<int>(cell % kBlockCells);
+    const int x = at % kSide, y = at / kSide;
+    const int x0 = dx != 0 ? x + dx : x - 1, x1 = dx != 0 ? x + dx : x + 1;
+    const int y0 = dy != 0 ? y + dy : y - 1, y1 = dy != 0 ? y + dy : y + 1;
+    if (x0 < 0 || y0 < 0 || x1 >= kSide || y1 >= kSide) {
+      const Cell own = cell_of(item);
+      return collect_near(
+          item, {own.x + x0 - x, own.y + y0 - y, own.x + x1 - x, own.y + y1 - y}, to);
+    }
+    const std::size_t block = cell / kBlockCells;
+    const int corner = y0 * kSide + x0;
+    const std::int32_t* const first = &blocks_[block].items[static_cast<std::size_t>(2 * corner)];
+    constexpr std::uint64_t kRow = 0x7, kColumn = 0x010101;
+    std::uint64_t cells = kRow;
+    if (dx == 0) {
+      to = take_some(first, kThree, item, to);
+    } else {
+      cells = kColumn;
+      to = take_some(first, kOne, item, to);
+      to = take_some(first + 2 * kSide, kOne, item, to);
+      to = take_some(first + 4 * kSide, kOne, item, to);
+    }
+    const std::uint64_t crowded = heads_[block].crowded & (cells << corner);
+    return crowded == 0 ? to : collect_hanging(block, crowded, item, to);
+  }
+
   /// Calls visit(item) for all in cells of the range. `visit` changes nothing here.
   template <class Visit>
   void for_each(const Range& cells, std::int32_t level, const Visit& visit) const {
@@ -128,6 +178,31 @@ class CellStore {
       for_each_in(entry.block, {0, 0, kBlockSide - 1, kBlockSide - 1}, visit);
     }
   }
+
+  /// What the owner of the cells keeps for a block of them; made anew with the block.
+  struct Note {
+    std::uint64_t as_of = 0;  ///< 0: nothing
+    PooledList list;          ///< of which a new block may inherit some
+  };
+  struct NotedBlock {
+    Cell key;  ///< the block's numbers along the axes, and its level
+    Note* note;
+  };
+  /// Of the block where the item is. REQUIRES: in a cell.
+  NotedBlock noted_block_of(std::int32_t item) {
+    Head& head = heads_[index(links_[index(item)].cell) / kBlockCells];
+    return {head.key, &head.note};
+  }
+  const Note& note_of_block_of(std::int32_t item) const {
+    return heads_[index(links_[index(item)].cell) / kBlockCells].note;
+  }
+  /// Forgets what is kept for the blocks that a range meets. False, and nothing is done, where
+  /// these are many.
+  bool forget_notes(const Range& cells, std::int32_t level);
+
+  /// Some item of a level, -1 where the next few blocks hold none; each call goes on where the last
+  /// has stopped.
+  std::int32_t some_item_of(std::int32_t level);
 
   /// How many items collect_around() has written for those of a level, as far as is known, since
   /// the last call for it.
@@ -153,6 +228,7 @@ class CellStore {
     std::int32_t items = 0;
     mutable std::uint32_t looks = 0;
     std::array<std::int32_t, 9> beside;  ///< the blocks around it, itself in the middle
+    Note note;
   };
   static std::size_t beside(std::int64_t dx, std::int64_t dy) {
     return static_cast<std::size_t>(3 * dy + dx + 4);
@@ -203,7 +279,8 @@ class CellStore {
     return crowded == 0 ? to : collect_hanging(block, crowded, but_for, to);
   }
 
-  /// Two items a cell of three.
+  /// Two items a cell.
+  static constexpr std::integral_constant<int, 2> kOne{};
   static constexpr std::integral_constant<int, 6> kThree{};
   template <class Count>
   static std::int32_t* take_some(const std::int32_t* from,
@@ -285,6 +362,19 @@ class CellStore {
       if (table_[i].block == kNone || table_[i].key == key) return i;
     }
   }
+  /// The block of a key, made if need be.
+  std::int32_t block_for(const Cell& key) {
+    const std::int32_t block = table_[entry_of(key)].block;
+    return block != kNone ? block : make_block(key);
+  }
+  /// Where in its block a cell is.
+  static std::size_t in_block(const Cell& cell) {
+    return static_cast<std::size_t>((cell.y & (kBlockSide - 1)) * kBlockSide +
+                                    (cell.x & (kBlockSide - 1)));
+  }
+  void move_far(std::int32_t item, std::int64_t dx, std::int64_t dy);
+  void put_in(std::int32_t item, std::int32_t block, std::size_t at);
+  void take_out(std::int32_t item);
   std::int32_t make_block(const Cell& key);
   void drop_block(std::int32_t block);
   void link(std::int32_t block, std::int32_t as);
@@ -297,7 +387,9 @@ class CellStore {
   std::vector<std::int32_t> free_blocks_;
   std::vector<Entry> table_ = std::vector<Entry>(64);  // open addressing
   std::size_t entries_ = 0;
-  int table_shift_ = 58;  // of a hash, for a place in the table
+  std::int32_t items_max_ = 0;  // that a block has ever held
+  std::size_t looked_at_ = 0;   // of the table, by some_item_of()
+  int table_shift_ = 58;        // of a hash, for a place in the table
 };
 
 }  // namespace stoss::engine

@@ -21,38 +21,38 @@ double balanced_by(double ratio) {
 
 }  // namespace
 
-std::optional<DiskCells::Cage> DiskCells::enter(
-    std::int32_t disk, double x, double y, double radius, double least) {
+bool DiskCells::enter(std::int32_t disk, double x, double y, double radius, double least) {
   Level* const level = level_for(radius);
-  if (level == nullptr) return std::nullopt;
-  const auto cage = cage_at(*level, x, y);
-  if (!cage || !(least < kBeyond * level->side)) {
+  if (level == nullptr) return false;
+  const auto cell = cell_at(*level, x, y);
+  if (!cell || !(least < kBeyond * level->side)) {
     if (level->items == 0) std::erase_if(levels_, [](const Level& l) { return l.items == 0; });
-    return std::nullopt;
+    return false;
   }
-  store_.insert(disk, cage->cell);
+  store_.insert(disk, *cell);
   ++level->items;
-  return cage;
+  return true;
 }
 
-std::optional<DiskCells::Cage> DiskCells::move(std::int32_t disk, double x, double y) {
-  Level& level = level_of(store_.cell_of(disk).level);
-  if (level.is_retired) return std::nullopt;
-  const auto cage = cage_at(level, x, y);
-  if (!cage) return std::nullopt;
-  store_.remove(disk);
-  store_.insert(disk, cage->cell);
+std::optional<DiskCells::Step> DiskCells::move(std::int32_t disk, double x, double y) {
+  const Cell from = store_.cell_of(disk);
+  Level& level = level_of(from.level);
+  if (is_given_up(level)) return std::nullopt;
+  const auto to = cell_at(level, x, y);
+  if (!to) return std::nullopt;
+  const Step step{to->x - from.x, to->y - from.y};
+  store_.move(disk, step.dx, step.dy);
   ++level.crossings;
   look_after(level);
-  return cage;
+  return step;
 }
 
-std::optional<DiskCells::Cage> DiskCells::cage_at(const Level& level, double x, double y) {
-  const double number_x = x * level.inverse;
-  const double number_y = y * level.inverse;
-  if (!(std::abs(number_x) < kNumberMax && std::abs(number_y) < kNumberMax)) return std::nullopt;
-  const Cell cell{CellStore::floor_of(number_x), CellStore::floor_of(number_y), level.id};
-  return cage_in(level, cell);
+Aabb DiskCells::box_of(std::int32_t disk) const {
+  const Level& level = level_of(store_.cell_of(disk).level);
+  const Cage cage = cage_of(disk);
+  const double half =
+      Extent::padded(cage.half + level.radius_max, std::max(std::abs(cage.x), std::abs(cage.y)));
+  return {cage.x - half, cage.y - half, cage.x + half, cage.y + half};
 }
 
 void DiskCells::leave(std::int32_t disk) {
@@ -60,11 +60,6 @@ void DiskCells::leave(std::int32_t disk) {
   store_.remove(disk);
   if (--level_of(id).items > 0) return;
   std::erase_if(levels_, [id](const Level& level) { return level.id == id; });
-}
-
-DiskCells::Level& DiskCells::level_of(std::int32_t id) {
-  return *std::find_if(
-      levels_.begin(), levels_.end(), [id](const Level& level) { return level.id == id; });
 }
 
 DiskCells::Level& DiskCells::make_level(double radius_max, double side) {
@@ -81,21 +76,51 @@ DiskCells::Level& DiskCells::make_level(double radius_max, double side) {
 // none. None for a disk that is much larger than most: a box with a margin of its own, which
 // follows its work, suits it better.
 DiskCells::Level* DiskCells::level_for(double radius) {
-  constexpr double kAlike = 1.5;   // with larger ones its cells would be too full
-  constexpr double kLarger = 2.2;  // by much
+  constexpr double kAlike = 1.5;  // with larger ones its cells would be too full
   Level* best = nullptr;
-  std::int32_t smaller = 0;
   for (Level& level : levels_) {
-    if (kLarger * level.radius_max < radius) smaller += level.items;
     if (level.is_retired || level.radius_max < radius || level.radius_max > kAlike * radius) {
       continue;
     }
     if (best == nullptr || best->radius_max < level.radius_max) best = &level;
   }
-  if (smaller > 2 * (best == nullptr ? 0 : best->items)) return nullptr;
-  if (best != nullptr) return best;
+  if (best != nullptr) {
+    return are_few_beside_smaller(best->radius_max, best->items) ? nullptr : best;
+  }
+  if (are_few_beside_smaller(radius, 0)) return nullptr;
   constexpr double kRoom = 1.001;  // for disks that differ by rounding alone
   return &make_level(kRoom * radius, least_side(kRoom * radius));
+}
+
+/// Are `items` disks of this radius few beside those in cells that are much smaller?
+bool DiskCells::are_few_beside_smaller(double radius, std::int32_t items) const {
+  constexpr double kMuch = 2.2;
+  std::int32_t smaller = 0;
+  for (const Level& level : levels_) {
+    if (kMuch * level.radius_max < radius) smaller += level.items;
+  }
+  return smaller > 2 * items;
+}
+
+std::int32_t DiskCells::straggler_of_some_level() {
+  for (const Level& level : levels_) {
+    if (is_given_up(level)) return store_.some_item_of(level.id);
+  }
+  return CellStore::kNone;
+}
+
+void DiskCells::note_bystander(const Aabb& box) {
+  for (const Level& level : levels_) {
+    const double beyond = (kBeyond + 2 * kRounding) * level.side + level.radius_max;
+    const CellStore::Range cells{CellStore::floor_of((box.low_x - beyond) * level.inverse),
+                                 CellStore::floor_of((box.low_y - beyond) * level.inverse),
+                                 CellStore::floor_of((box.high_x + beyond) * level.inverse),
+                                 CellStore::floor_of((box.high_y + beyond) * level.inverse)};
+    if (!store_.forget_notes(cells, level.id)) {
+      ++changes_;
+      return;
+    }
+  }
 }
 
 // Are the cells of a level too small or too large? With sides f times as long there are 1 / f times

@@ -16,15 +16,23 @@
 // large or too small, a level with better ones takes its place, and each disk moves there when it
 // next crosses a side.
 //
+// What else stands near, in no cell, is known block by block (bystanders), and asked for anew only
+// where something has come or gone.
+//
 // Source: cells without lists, one crossing event a body, Smallenburg, Eur. Phys. J. E 45 (2022)
 // 22; cages wider than their cells as in Bannerman, Sargant, Lue, J. Comput. Chem. 32 (2011) 3329.
 // Deviation: only what is new to a disk is looked at when it crosses.
 
 #include "broad_phase/aabb.hpp"
 #include "broad_phase/cell_store.hpp"
+#include "broad_phase/list_pool.hpp"
+#include "broad_phase/place.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace stoss::engine {
@@ -32,14 +40,21 @@ namespace stoss::engine {
 class DiskCells {
  public:
   using Cell = CellStore::Cell;
-  /// A square that its disk's centre stays in, with the disk's cell.
+  /// A square that its disk's centre stays in.
   struct Cage {
     double x = 0;     ///< m, of its middle
     double y = 0;     ///< m
     double half = 0;  ///< m
-    Cell cell;
+  };
+  /// From a cell to another of its level.
+  struct Step {
+    std::int64_t dx = 0;
+    std::int64_t dy = 0;
+    bool is_long() const { return dx < -1 || dx > 1 || dy < -1 || dy > 1; }
   };
 
+  /// So many disks are to come.
+  void make_room(std::size_t disks) { store_.make_room(disks); }
   bool contains(std::int32_t disk) const { return store_.contains(disk); }
   /// REQUIRES: contained.
   Cell cell_of(std::int32_t disk) const { return store_.cell_of(disk); }
@@ -47,46 +62,77 @@ class DiskCells {
   /// REQUIRES: contained.
   Cage cage_of(std::int32_t disk) const {
     const Cell cell = store_.cell_of(disk);
-    for (const Level& level : levels_) {
-      if (level.id == cell.level) return cage_in(level, cell);
-    }
-    return {};
+    return cage_in(level_of(cell.level), cell);
   }
+  /// The disk is in it, while it is in its cage. REQUIRES: contained.
+  Aabb box_of(std::int32_t disk) const;
+  /// Is nothing to be found by bystanders() or on other levels? REQUIRES: contained.
+  bool is_by_itself(std::int32_t disk) const {
+    const CellStore::Note& note = store_.note_of_block_of(disk);
+    return note.as_of == changes_ && note.list.size == 0 && levels_.size() == 1;
+  }
+  /// What may be near the disk without standing in a cell, and more: all that `search(box, found)`
+  /// has added to `found` for a box around the disk's block of cells. None where that is much.
+  /// REQUIRES: contained.
+  template <class Search>
+  std::optional<std::span<const std::int32_t>> bystanders(std::int32_t disk, const Search& search) {
+    constexpr std::size_t kMany = 32;
+    const auto [key, note] = store_.noted_block_of(disk);
+    if (note->as_of != changes_) {
+      asked_.clear();
+      search(box_of_block(level_of(key.level), key), asked_);
+      asked_.resize(std::min(asked_.size(), kMany));
+      lists_.assign(note->list, asked_);
+      note->as_of = changes_;
+    }
+    if (note->list.size == kMany) return std::nullopt;
+    return lists_.items(note->list);
+  }
+  /// To be told of each box of a body in no cell, when it comes and when it goes.
+  void note_bystander(const Aabb& box);
+
+  void prefetch_link(std::int32_t disk) const { store_.prefetch_link(disk); }
   /// Asks for what collect_around() will read of this one, and of those around it. REQUIRES:
   /// contained.
   void prefetch_block(std::int32_t disk) const { store_.prefetch_block(disk); }
   void prefetch_around(std::int32_t disk) const { store_.prefetch_around(disk); }
 
-  /// Puts a disk in whose centre is at (x, y), off by less than 1e-10 of `radius`. None where cells
-  /// do not suit it: too far out for their numbers, or much larger than most. `least`: m, that
-  /// a cage should leave it to go. REQUIRES: not in.
-  std::optional<Cage> enter(std::int32_t disk, double x, double y, double radius, double least);
+  /// Puts a disk in whose centre is at (x, y), off by less than 1e-10 of `radius`. False where
+  /// cells do not suit it: too far out for their numbers, or much larger than most. `least`: m,
+  /// that a cage should leave it to go. REQUIRES: not in.
+  bool enter(std::int32_t disk, double x, double y, double radius, double least);
   /// Brings a disk to the cell where it is now, of its own level. None, and nothing is done, where
   /// it should enter() anew. REQUIRES: contained.
-  std::optional<Cage> move(std::int32_t disk, double x, double y);
+  std::optional<Step> move(std::int32_t disk, double x, double y);
   /// REQUIRES: contained.
   void leave(std::int32_t disk);
+  /// A disk that should enter() anew though it may not move for long: its level has been given up,
+  /// and costs every search as long as disks are left in it. -1: none, or none at hand.
+  std::int32_t straggler() {
+    return levels_.size() < 2 ? CellStore::kNone : straggler_of_some_level();
+  }
 
+  /// So much room collect_around() and collect_new_around() need, in disks.
+  std::size_t around_max() const { return store_.around_max(); }
   /// Writes all disks of the level that this one may meet; returns where it has stopped. REQUIRES:
-  /// contained; room at `to` for all disks that there are and one more.
+  /// contained; room at `to`.
   std::int32_t* collect_around(std::int32_t disk, std::int32_t* to) const {
     return store_.collect_around(disk, to);
   }
 
-  /// The same for those alone that it could not meet while it stood in `before`, of its level.
-  std::int32_t* collect_new_around(std::int32_t disk, const Cell& before, std::int32_t* to) const {
+  /// The same for those alone that it could not meet before its last step.
+  std::int32_t* collect_new_around(std::int32_t disk, const Step& step, std::int32_t* to) const {
+    if (step.is_long()) return collect_around(disk, to);
+    const auto dx = static_cast<int>(step.dx), dy = static_cast<int>(step.dy);
+    if (dy == 0 && dx == 0) return to;
+    if (dy == 0) return store_.collect_beside(disk, dx, 0, to);
+    if (dx == 0) return store_.collect_beside(disk, 0, dy, to);
     const Cell own = store_.cell_of(disk);
-    const std::int64_t dx = own.x - before.x;
-    const std::int64_t dy = own.y - before.y;
-    if (dx < -1 || dx > 1 || dy < -1 || dy > 1) return collect_around(disk, to);
-    CellStore::Range rest{own.x - 1, own.y - 1, own.x + 1, own.y + 1};
-    if (dx != 0) {
-      const std::int64_t x = own.x + dx;
-      to = store_.collect_near(disk, {x, rest.y0, x, rest.y1}, to);
-      (dx > 0 ? rest.x1 : rest.x0) -= dx;
-    }
-    if (dy == 0) return to;
-    return store_.collect_near(disk, {rest.x0, own.y + dy, rest.x1, own.y + dy}, to);
+    to = store_.collect_beside(disk, dx, 0, to);
+    return store_.collect_near(
+        disk,
+        {std::min(own.x, own.x - dx), own.y + dy, std::max(own.x, own.x - dx), own.y + dy},
+        to);
   }
 
   /// Calls visit(disk) for every disk whose cage, with its radius, overlaps the box, and some more;
@@ -112,7 +158,7 @@ class DiskCells {
 
   template <class Visit>
   void find_on(const Level& level, const Aabb& box, const Visit& visit) const {
-    const double beyond = (kBeyond + 1e-6) * level.side + level.radius_max;
+    const double beyond = (kBeyond + kRounding) * level.side + level.radius_max;
     const double left = (box.low_x - beyond) * level.inverse;
     const double low = (box.low_y - beyond) * level.inverse;
     const double right = (box.high_x + beyond) * level.inverse;
@@ -129,28 +175,55 @@ class DiskCells {
   }
 
   static double least_side(double radius_max) {
-    constexpr double kRounding = 0x1p-8;  // of numbers up to kNumberMax, and much more
-    return 2 * radius_max / (1 - 2 * kBeyond - kRounding);
+    return 2 * radius_max / (1 - 2 * kBeyond - 2 * kRounding);
+  }
+  static Aabb box_of_block(const Level& level, const Cell& key) {
+    const double side = static_cast<double>(CellStore::kBlockSide) * level.side;
+    const double reach = (kBeyond + kRounding) * level.side + level.radius_max;
+    const double x = static_cast<double>(key.x) * side;
+    const double y = static_cast<double>(key.y) * side;
+    return {x - reach, y - reach, x + side + reach, y + side + reach};
   }
   /// Where a centre at (x, y) stands on a level; none beyond the range of its cells' numbers.
-  static std::optional<Cage> cage_at(const Level& level, double x, double y);
+  static std::optional<Cell> cell_at(const Level& level, double x, double y) {
+    const double number_x = x * level.inverse;
+    const double number_y = y * level.inverse;
+    if (!(std::abs(number_x) < kNumberMax && std::abs(number_y) < kNumberMax)) return std::nullopt;
+    return Cell{CellStore::floor_of(number_x), CellStore::floor_of(number_y), level.id};
+  }
   static Cage cage_in(const Level& level, const Cell& cell) {
     return {(static_cast<double>(cell.x) + 0.5) * level.side,
             (static_cast<double>(cell.y) + 0.5) * level.side,
-            (0.5 + kBeyond) * level.side,
-            cell};
+            (0.5 + kBeyond) * level.side};
   }
-  Level& level_of(std::int32_t id);
+  Level& level_of(std::int32_t id) {
+    std::size_t i = 0;
+    while (levels_[i].id != id) ++i;
+    return levels_[i];
+  }
+  const Level& level_of(std::int32_t id) const {
+    return const_cast<DiskCells&>(*this).level_of(id);
+  }
+  bool are_few_beside_smaller(double radius, std::int32_t items) const;
   Level* level_for(double radius);
   Level& make_level(double radius_max, double side);
   void look_after(Level& level);
+  bool is_given_up(const Level& level) const {
+    return level.is_retired || are_few_beside_smaller(level.radius_max, level.items);
+  }
+  std::int32_t straggler_of_some_level();
 
   static constexpr double kBeyond = 1.0 / 32;  // s in (1)
   static constexpr double kNumberMax = 0x1p40;
+  /// In sides of cells, of places whose cells have numbers up to kNumberMax; and much more.
+  static constexpr double kRounding = 0x1p-9;
 
   CellStore store_;
   std::vector<Level> levels_;  // few
   std::int32_t next_id_ = 0;
+  ListPool lists_;             // of bystanders
+  std::uint64_t changes_ = 1;  // among them, that concern too many blocks to be told to each
+  std::vector<std::int32_t> asked_;
 };
 
 }  // namespace stoss::engine

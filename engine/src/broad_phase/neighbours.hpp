@@ -74,6 +74,12 @@ class Neighbours {
     double y_low = 0;
   };
 
+  /// So many slots are to come.
+  void make_room(std::size_t slots) {
+    standing_.reserve(slots);
+    cells_.make_room(slots);
+  }
+
   /// All neighbours of a dynamic disk, followed in memory by three or more slots, whichever. Valid
   /// until it was called for two others, or a box is renewed.
   std::span<const Slot> of(Slot slot) const {
@@ -83,7 +89,7 @@ class Neighbours {
     Gathered& oldest = gathered_[next_gathered_];
     next_gathered_ = 1 - next_gathered_;
     const auto list = list_of(slot);
-    Slot* to = std::copy(list.begin(), list.end(), room_in(oldest));
+    Slot* to = std::copy(list.begin(), list.end(), room_in(oldest, list.size()));
     if (cells_.contains(slot)) to = cells_.collect_around(slot, to);
     oldest.renewals = renewals_;
     return ended(oldest, slot, to);
@@ -97,22 +103,26 @@ class Neighbours {
     for (const Slot other : found) visit(other);
     spare_ = std::move(found);
   }
-  /// After renew() of a disk: has it gone from one cell to the next, and found nobody new but
-  /// there?
-  bool has_only_crossed() const { return has_only_crossed_; }
-  /// As of(): whom it has as neighbours now and had not before. Valid until the next call.
-  /// REQUIRES: has_only_crossed().
+  /// As of(): whom a disk that was brought to another cell by the last call of cross() has as
+  /// neighbours now and had not before. Valid until the next call.
   std::span<const Slot> newcomers(Slot slot) const {
-    Slot* const to = room_in(newcomers_);
-    return ended(newcomers_, slot, cells_.collect_new_around(slot, crossed_from_, to));
+    Slot* to = cells_.collect_new_around(slot, last_step_, room_in(newcomers_, found_.size()));
+    for (const Slot found : found_) {
+      if (std::find(before_.begin(), before_.end(), found) == before_.end()) *to++ = found;
+    }
+    return ended(newcomers_, slot, to);
   }
-  /// Asks for what of() and leeway() will read.
+  /// Asks for what the next two functions will read.
+  void prefetch_standing(Slot slot) const {
+    prefetch(&standing_[index(slot)]);
+    cells_.prefetch_link(slot);
+  }
+  /// Asks for what leeway() will read, and of() of the place.
   void prefetch_place(Slot slot) const {
-    prefetch(&lists_[index(slot)]);
     if (cells_.contains(slot)) {
       cells_.prefetch_block(slot);
     } else {
-      prefetch(&grid_.place(slot));
+      prefetch(&place(slot));
     }
   }
   /// Asks for the list itself; its place should have come.
@@ -135,11 +145,34 @@ class Neighbours {
       const DiskCells::Cage cage = cells_.cage_of(slot);
       return {{cage.x, cage.y, 0, 0}, cage.half};
     }
-    const Place& place = grid_.place(slot);
-    return {{place.x, place.y, place.x_low(), place.y_low()}, place.margin};
+    const Place& here = place(slot);
+    return {{here.x, here.y, here.x_low(), here.y_low()}, here.margin};
   }
   Aabb box_of(Slot slot) const {
-    return tags_[index(slot)].role == Role::Wall ? tree_.box_of(slot) : grid_.place(slot).box();
+    if (cells_.contains(slot)) return cells_.box_of(slot);
+    return standing_[index(slot)].role == Role::Wall ? tree_.box_of(slot) : place(slot).box();
+  }
+
+  /// Brings a disk that has come to the side of its cage, at (x, y) [m] by now, to the next cell.
+  /// False, and nothing is done, where it should be renewed in another way. `interacts` as below.
+  template <class Interacts>
+  bool cross(Slot slot, double x, double y, const Interacts& interacts) {
+    Standing& standing = standing_[index(slot)];
+    if (!cells_.contains(slot) || standing.flown >= kFar) return false;
+    const auto step = cells_.move(slot, x, y);
+    // Where it stands still it is too fast for cells: it would have crossed at this very instant.
+    if (!step || (step->dx == 0 && step->dy == 0)) return false;
+    ++standing.flown;
+    last_step_ = *step;
+    ++renewals_;
+    found_.clear();
+    before_.clear();
+    const auto list = list_of(slot);
+    if (list.empty() && cells_.is_by_itself(slot)) return true;
+    before_.assign(list.begin(), list.end());
+    find_from_cell(slot, interacts);
+    if (!found_.empty() || !before_.empty()) replace_neighbours(slot);
+    return true;
   }
 
   /// Makes the box of a body afresh: `tight` is its extent and `here` its place now.
@@ -153,24 +186,23 @@ class Neighbours {
              const Margin& margin,
              const Interacts& interacts,
              const Copies& copies = {}) {
-    grid_.reserve(slot);
-    if (index(slot) >= tags_.size()) {
-      tags_.resize(index(slot) + 1);
-      lists_.resize(index(slot) + 1);
-    }
-    const std::optional<DiskCells::Cell> from = cell_of(slot);
+    if (index(slot) >= standing_.size()) standing_.resize(index(slot) + 1);
     const bool was_known = remember_neighbours(slot, copies);
-    if (!from || !cross(slot, tight, interacts, copies)) {
-      const bool in_cells = role == Role::DynamicDisk && margin.may_stand_in_cells &&
-                            (!was_known || suits_cells(slot, from.has_value(), margin.wanted));
-      if (was_known) take_out(slot);
-      const Aabb box = put_in(slot, role, tight, here, margin, in_cells);
-      find(slot, box, interacts, copies);
+    const bool in_cells = role == Role::DynamicDisk && margin.may_stand_in_cells &&
+                          (!was_known || suits_cells(slot, margin.wanted));
+    if (was_known) take_out(slot);
+    put_in(slot, role, tight, here, margin, in_cells);
+    if (cells_.contains(slot)) {
+      find_from_cell(slot, interacts);
+    } else {
+      find(slot, box_of(slot), interacts, copies);
     }
-    note_crossing(slot, from);
     replace_neighbours(slot);
     ++renewals_;
   }
+
+  /// A disk whose box had better be renewed now, to spare others work; -1: none.
+  Slot straggler() { return cells_.straggler(); }
 
   template <class Copies = NoCopies>
   void remove(Slot slot, const Copies& copies = {}) {
@@ -180,15 +212,19 @@ class Neighbours {
   }
 
   /// Notes that a body's motion has changed.
-  void note_event(Slot slot) { tags_[index(slot)].flown = 0; }
+  void note_event(Slot slot) { standing_[index(slot)].flown = 0; }
   /// Notes predictions made for a body since its last renewal.
   void note_work(Slot slot) {
     if (cells_.contains(slot)) return;
-    Place& place = grid_.place(slot);
-    const std::uint32_t work = place.work + lists_[index(slot)].size;
-    place.work = static_cast<std::uint16_t>(std::min(work, std::uint32_t{0xffff}));
+    Place& here = place(slot);
+    here.work = std::min(here.work + standing_[index(slot)].list.size, kWorkMax);
   }
 
+  /// Has a body without a cell so many neighbours because of its margin that its box had better be
+  /// renewed at once?
+  bool is_overworked(Slot slot) const {
+    return !cells_.contains(slot) && spent_on_margin(place(slot)) > kTooMuch * work_of_search(slot);
+  }
   /// The margin to renew with, m, so that searching and predicting cost about the same.
   double next_margin(Slot slot) const;
 
@@ -198,15 +234,16 @@ class Neighbours {
     std::vector<Slot> found = std::exchange(spare_, {});
     const auto in_grid = grid_.find(box);
     found.assign(in_grid.begin(), in_grid.end());
-    find_in_cells(box, DiskCells::kNoLevel, [&](Slot slot) { found.push_back(slot); });
+    cells_.find(box, DiskCells::kNoLevel, [&](Slot slot) { found.push_back(slot); });
     for (const Slot slot : found) visit(slot);
     spare_ = std::move(found);
     tree_.query(box, visit);
   }
 
  private:
-  /// Of each body; a byte or two, for a search reads many of them.
-  struct Tag {
+  /// Of each body.
+  struct Standing {
+    PooledList list;
     Role role = Role::Wall;
     bool is_marked = false;
     std::uint8_t flown = 0;  ///< cells that it has crossed to since it last had an event, or kFar
@@ -214,15 +251,33 @@ class Neighbours {
 
   /// Cells; chosen: a disk that flies farther without an event is in nobody's way.
   static constexpr std::uint8_t kFar = 24;
+  static constexpr std::uint32_t kWorkMax = 1U << 30;
+  /// Of the work of a search: as much for a margin is too much.
+  static constexpr double kTooMuch = 2;
+
+  /// A search in looks at a neighbour: so many, and for each that it finds this part of one.
+  /// Measured; within a factor of two it hardly matters.
+  double work_of_search(Slot slot) const {
+    constexpr double kSearchWork = 30;
+    constexpr double kFoundWork = 0.5;
+    return kSearchWork + kFoundWork * static_cast<double>(standing_[index(slot)].list.size);
+  }
+  /// The looks at neighbours that are some because of the margin: the part by which the box grows
+  /// with it. A disk among far smaller ones has most of its neighbours anyway.
+  static double spent_on_margin(const Place& place) {
+    return std::min(1.0, 2 * place.margin / place.half) * place.work;
+  }
 
   static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
-  bool keeps_list(Slot slot) const { return tags_[index(slot)].role == Role::DynamicDisk; }
+  bool keeps_list(Slot slot) const { return standing_[index(slot)].role == Role::DynamicDisk; }
   static void keep_each_once(std::vector<Slot>& slots) {
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   }
 
-  std::span<const Slot> list_of(Slot slot) const { return pool_.items(lists_[index(slot)]); }
+  std::span<const Slot> list_of(Slot slot) const {
+    return pool_.items(standing_[index(slot)].list);
+  }
   std::optional<DiskCells::Cell> cell_of(Slot slot) const {
     if (!cells_.contains(slot)) return std::nullopt;
     return cells_.cell_of(slot);
@@ -235,9 +290,10 @@ class Neighbours {
     std::vector<Slot> slots;
     std::span<const Slot> span() const { return {slots.data(), size}; }
   };
-  // Memory for every body and a little more.
-  Slot* room_in(Gathered& gathered) const {
-    if (gathered.slots.size() < tags_.size() + 4) gathered.slots.resize(tags_.size() + 4);
+  // Memory for so many bodies, those of the cells around one, and a little more.
+  Slot* room_in(Gathered& gathered, std::size_t listed) const {
+    const std::size_t wanted = listed + cells_.around_max() + 4;
+    if (gathered.slots.size() < wanted) gathered.slots.resize(2 * wanted);
     return gathered.slots.data();
   }
   // What was written there, ended with some slots.
@@ -247,55 +303,40 @@ class Neighbours {
     gathered.size = static_cast<std::size_t>(to - gathered.slots.data());
     return gathered.span();
   }
-  /// A disk that comes to another cell of its level. False, and nothing is done, where it should
-  /// stand elsewhere.
-  template <class Interacts, class Copies>
-  bool cross(Slot slot, const Aabb& tight, const Interacts& interacts, const Copies& copies) {
-    if (tags_[index(slot)].flown >= kFar) return false;
-    const Extent extent(tight);
-    const DiskCells::Cell from = cells_.cell_of(slot);
-    const auto cage = cells_.move(slot, extent.x, extent.y);
-    if (!cage) return false;
-    if (cage->cell != from) ++tags_[index(slot)].flown;
-    find(slot, box_in(*cage, slot, extent), interacts, copies);
-    return true;
-  }
   // Whoever flies far without an event gets a box that grows, so that it is brought on the less
   // often the farther it flies; until it has had one again, or too many to look at.
-  bool suits_cells(Slot slot, bool stands_in_one, double wanted) {
-    const Tag& tag = tags_[index(slot)];
-    if (stands_in_one) return tag.flown < kFar;
-    return tag.flown == 0 || wanted < grid_.place(slot).margin;
+  bool suits_cells(Slot slot, double wanted) {
+    const Standing& standing = standing_[index(slot)];
+    if (cells_.contains(slot)) return standing.flown < kFar;
+    return standing.flown == 0 || wanted < place(slot).margin;
   }
-  void note_crossing(Slot slot, const std::optional<DiskCells::Cell>& from) {
-    const std::optional<DiskCells::Cell> to = cell_of(slot);
-    has_only_crossed_ = from && to && from->level == to->level && found_.size() <= before_.size();
-    for (const Slot found : found_) {
-      if (!has_only_crossed_) return;
-      has_only_crossed_ = std::find(before_.begin(), before_.end(), found) != before_.end();
-    }
-    if (has_only_crossed_) crossed_from_ = *from;
-  }
-
-  // Each gives the box that others are looked for in.
-  Aabb put_in(Slot slot,
+  void put_in(Slot slot,
               Role role,
               const Aabb& tight,
               const Glance& here,
               const Margin& margin,
               bool in_cells);
-  Aabb stand_in_tree(Slot slot, const Aabb& tight, const Glance& here, double margin);
-  Aabb stand_in_grid(Slot slot, const Aabb& tight, const Glance& here, double margin);
-  std::optional<Aabb> stand_in_cell(Slot slot, const Aabb& tight, double least);
-  Aabb box_in(const DiskCells::Cage& cage, Slot slot, const Extent& tight);
+  void stand_in_tree(Slot slot, const Aabb& tight, const Glance& here, double margin);
+  void stand_in_grid(Slot slot, const Aabb& tight, const Glance& here, double margin);
+  Place& place(Slot slot) { return grid_.places().of(slot); }
+  const Place& place(Slot slot) const { return grid_.places().of(slot); }
 
-  // Disks in cells whose boxes overlap this one.
-  template <class Visit>
-  void find_in_cells(const Aabb& box, std::int32_t but_for_level, const Visit& visit) const {
-    const Extent extent(box);
-    cells_.find(box, but_for_level, [&](Slot other) {
-      if (overlaps(grid_.place(other), extent)) visit(other);
+  // Whom a disk in a cell has as neighbours, but for those whom it knows from the cells: found_.
+  template <class Interacts>
+  void find_from_cell(Slot slot, const Interacts& interacts) {
+    const Aabb box = cells_.box_of(slot);
+    const auto near = cells_.bystanders(slot, [this](const Aabb& area, std::vector<Slot>& found) {
+      for (const Slot other : grid_.find(area)) found.push_back(other);
+      tree_.query(area, [&](Slot other) { found.push_back(other); });
     });
+    if (!near) return find(slot, box, interacts, NoCopies{});
+    found_.clear();
+    for (const Slot other : *near) {
+      if (overlaps(box_of(other), box) && (keeps_list(other) || interacts(other))) {
+        found_.push_back(other);
+      }
+    }
+    cells_.find(box, cells_.cell_of(slot).level, [this](Slot other) { found_.push_back(other); });
   }
 
   // Whom the body has as neighbours with the box that it has now, but for those whom it knows from
@@ -311,7 +352,7 @@ class Neighbours {
     };
     copies(box, [&](const Aabb& copy) {
       for (const Slot other : grid_.find(copy)) consider(other);
-      find_in_cells(copy, own_cell ? own_cell->level : DiskCells::kNoLevel, consider);
+      cells_.find(copy, own_cell ? own_cell->level : DiskCells::kNoLevel, consider);
       tree_.query(copy, [&](Slot other) {
         if (interacts(other)) found_.push_back(other);
       });
@@ -333,7 +374,7 @@ class Neighbours {
     };
     copies(box_of(slot), [&](const Aabb& copy) {
       for (const Slot other : grid_.find(copy)) remember(other);
-      find_in_cells(copy, DiskCells::kNoLevel, remember);
+      cells_.find(copy, DiskCells::kNoLevel, remember);
     });
     if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(before_);
     return true;
@@ -342,16 +383,14 @@ class Neighbours {
   void forget(Slot slot);
   void replace_neighbours(Slot slot);
 
-  BoxGrid grid_;     // of disks, and the places of all bodies
+  BoxGrid grid_;     // of disks; and the places of walls
   DiskCells cells_;  // of disks that are not in the grid
   AabbTree tree_;
-  std::vector<Tag> tags_;
-  ListPool pool_;
-  std::vector<PooledList> lists_;  // of each body
-  std::vector<Slot> before_;       // whom a body without a list had as neighbours, and a few more
+  std::vector<Standing> standing_;
+  ListPool pool_;             // of the lists
+  std::vector<Slot> before_;  // whom a body without a list had as neighbours, and a few more
   std::vector<Slot> found_;
-  bool has_only_crossed_ = false;  // the body that was renewed last
-  DiskCells::Cell crossed_from_;
+  DiskCells::Step last_step_;        // of the disk that crossed last
   mutable std::vector<Slot> spare_;  // its memory is used again
   std::uint64_t renewals_ = 0;
   mutable std::array<Gathered, 2> gathered_;  // by the last calls of of()

@@ -17,7 +17,7 @@ struct alignas(64) Place {
   double margin = 0;  ///< m, by how much the box is larger than the body was
   float low_x = 0;    ///< of `half`: from (x, y) to where the body itself was
   float low_y = 0;    ///< likewise; not in m, for those may be beyond the range of a float
-  std::uint16_t work = 0;  ///< predictions looked at since the last renewal, at most
+  std::uint32_t work = 0;  ///< predictions looked at since the last renewal, at most
 
   double x_low() const { return static_cast<double>(low_x) * half; }  ///< m
   double y_low() const { return static_cast<double>(low_y) * half; }  ///< m

@@ -65,9 +65,9 @@ TEST(Memory, OfABodyIsBounded) {
   const std::size_t before = bytes_in_use;
   World world = disks_in_rows();
   EXPECT_GT(bytes_a_body(before), sizeof(DiskSpec));  // or nothing is counted
-  EXPECT_LT(bytes_a_body(before), 448U);
+  EXPECT_LT(bytes_a_body(before), 352U);
   EXPECT_TRUE(world.advance_to({1000, 0}, nullptr, 4 * kDisks).ok());
-  EXPECT_LT(bytes_a_body(before), 480U);
+  EXPECT_LT(bytes_a_body(before), 368U);
 }
 
 TEST(Memory, OfTheHashIsTakenWhenItIsAskedFor) {
