@@ -64,7 +64,7 @@ void expect_found_beside(const CellStore& store,
                      own.y + (dy != 0 ? dy : -1),
                      own.x + (dx != 0 ? dx : 1),
                      own.y + (dy != 0 ? dy : 1)};
-    std::vector<std::int32_t> room(kItems + 1);
+    std::vector<std::int32_t> room(kItems + kWrittenBeyond);
     room.resize(
         static_cast<std::size_t>(store.collect_beside(item, dx, dy, room.data()) - room.data()));
     ASSERT_EQ(sorted(room), items_in(cells, side, own.level, item));
@@ -77,7 +77,7 @@ void expect_found(const CellStore& store,
                   const Range& near) {
   const Cell& own = cells.at(item);
   ASSERT_EQ(store.cell_of(item), own);
-  std::vector<std::int32_t> room(kItems + 1);
+  std::vector<std::int32_t> room(kItems + kWrittenBeyond);
   const auto written = [&room](const std::int32_t* end) {
     return sorted(std::vector<std::int32_t>(room.cbegin(), room.cbegin() + (end - room.data())));
   };
@@ -128,7 +128,7 @@ TEST(CellStore, CountsLooksByLevel) {
   store.insert(0, {0, 0, 5});
   store.insert(1, {1, 0, 5});
   store.insert(2, {0, 0, 6});
-  std::vector<std::int32_t> room(4);
+  std::vector<std::int32_t> room(2 + kWrittenBeyond);
   store.collect_around(0, room.data());
   store.collect_around(1, room.data());
   EXPECT_EQ(store.take_looks(6), 0U);

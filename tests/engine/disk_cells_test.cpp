@@ -35,7 +35,7 @@ Aabb reach_of(const Disk& disk) {
 }
 
 std::set<std::int32_t> around(const DiskCells& cells, std::int32_t disk) {
-  std::vector<std::int32_t> room(kDisks + 1);
+  std::vector<std::int32_t> room(kDisks + kWrittenBeyond);
   const std::int32_t* const end = cells.collect_around(disk, room.data());
   return {room.cbegin(), room.cbegin() + (end - room.data())};
 }
@@ -93,7 +93,7 @@ TEST(DiskCells, OverlookNobodyUnderRandomWork) {
       if (!step) continue;
       ++moved;
       disks[disk] = disk_in(cells, disk, disks[disk].radius);
-      std::vector<std::int32_t> room(kDisks + 1);
+      std::vector<std::int32_t> room(kDisks + kWrittenBeyond);
       const std::int32_t* const end = cells.collect_new_around(disk, *step, room.data());
       std::set<std::int32_t> all(room.cbegin(), room.cbegin() + (end - room.data()));
       for (const std::int32_t newcomer : all) EXPECT_TRUE(around(cells, disk).contains(newcomer));

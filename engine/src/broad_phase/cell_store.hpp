@@ -10,20 +10,20 @@
 // empty nothing hangs behind it, and where the first is empty the second is.
 
 #include "broad_phase/list_pool.hpp"
+#include "broad_phase/three_cells.hpp"
 #include "prefetch.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 namespace stoss::engine {
 
 class CellStore {
  public:
-  static constexpr std::int32_t kNone = -1;
+  static constexpr std::int32_t kNone = kNoItem;
   static constexpr int kBlockShift = 3;
   static constexpr std::int64_t kBlockSide = 1 << kBlockShift;  ///< in cells
   static constexpr std::size_t kBlockCells = kBlockSide * kBlockSide;
@@ -91,7 +91,7 @@ class CellStore {
 
   /// Writes all items but one that are in cells near it; returns where it has stopped. REQUIRES: in
   /// a cell; the range lies within two cells of its own, on its level; room at `to` for
-  /// all items of the blocks that the range meets and one more.
+  /// all items of the blocks that the range meets and kWrittenBeyond more.
   std::int32_t* collect_near(std::int32_t item, const Range& cells, std::int32_t* to) const {
     const std::int32_t own = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
     const Head& head = heads_[index(own)];
@@ -111,14 +111,15 @@ class CellStore {
     const std::uint32_t at = cell % kBlockCells;
     const std::uint32_t x = at % kBlockSide, y = at / kBlockSide;
     if (x - 1 >= kBlockSide - 2 || y - 1 >= kBlockSide - 2) {
-      return collect_across(item, cell / kBlockCells, x, y, to);
+      return collect_across(
+          item, heads_[cell / kBlockCells], static_cast<int>(x), static_cast<int>(y), to);
     }
     const std::uint32_t corner = at - kBlockSide - 1;
-    const std::int32_t* const first = &blocks_[cell / kBlockCells].items[2 * corner];
+    const std::int32_t* row = &blocks_[cell / kBlockCells].items[2 * corner];
     const std::int32_t* const start = to;
-    to = take_some(first, kThree, item, to);
-    to = take_some(first + 2 * kBlockSide, kThree, item, to);
-    to = take_some(first + 4 * kBlockSide, kThree, item, to);
+    for (int i = 0; i < 3; ++i, row += 2 * kBlockSide) {
+      to = take_three(row, row + 2, row + 4, item, to);
+    }
     constexpr std::uint64_t kNineCells = 0x070707;
     const Head& head = heads_[cell / kBlockCells];
     head.looks += static_cast<std::uint32_t>(to - start);
@@ -126,36 +127,26 @@ class CellStore {
     return crowded == 0 ? to : collect_hanging(cell / kBlockCells, crowded, item, to);
   }
 
-  /// How many collect_around() writes at most, with the one more.
-  std::size_t around_max() const { return 4 * static_cast<std::size_t>(items_max_) + 1; }
+  /// For how many collect_around() needs room at most.
+  std::size_t around_max() const {
+    return 4 * static_cast<std::size_t>(items_max_) + kWrittenBeyond;
+  }
 
   /// The same for the three cells on one side of its own: dx or dy is 1 or -1, the other 0.
   std::int32_t* collect_beside(std::int32_t item, int dx, int dy, std::int32_t* to) const {
     const auto cell = static_cast<std::uint32_t>(links_[index(item)].cell);
-    const auto at = static_cast<int>(cell % kBlockCells);
-    const int x = at % kSide, y = at / kSide;
-    const int x0 = dx != 0 ? x + dx : x - 1, x1 = dx != 0 ? x + dx : x + 1;
-    const int y0 = dy != 0 ? y + dy : y - 1, y1 = dy != 0 ? y + dy : y + 1;
-    if (x0 < 0 || y0 < 0 || x1 >= kSide || y1 >= kSide) {
-      const Cell own = cell_of(item);
-      return collect_near(
-          item, {own.x + x0 - x, own.y + y0 - y, own.x + x1 - x, own.y + y1 - y}, to);
+    const Head& head = heads_[cell / kBlockCells];
+    const int x = static_cast<int>(cell % kBlockCells) % kSide + dx;
+    const int y = static_cast<int>(cell % kBlockCells) / kSide + dy;
+    const int along_x = dx == 0 ? 1 : 0, along_y = 1 - along_x;
+    const std::array<Seen, 3> side{seen_from(head, x - along_x, y - along_y),
+                                   seen_from(head, x, y),
+                                   seen_from(head, x + along_x, y + along_y)};
+    to = take_three(side[0].places, side[1].places, side[2].places, item, to);
+    for (const Seen& some : side) {
+      if (some.crowded != 0) to = collect_hanging(index(some.block), some.crowded, item, to);
     }
-    const std::size_t block = cell / kBlockCells;
-    const int corner = y0 * kSide + x0;
-    const std::int32_t* const first = &blocks_[block].items[static_cast<std::size_t>(2 * corner)];
-    constexpr std::uint64_t kRow = 0x7, kColumn = 0x010101;
-    std::uint64_t cells = kRow;
-    if (dx == 0) {
-      to = take_some(first, kThree, item, to);
-    } else {
-      cells = kColumn;
-      to = take_some(first, kOne, item, to);
-      to = take_some(first + 2 * kSide, kOne, item, to);
-      to = take_some(first + 4 * kSide, kOne, item, to);
-    }
-    const std::uint64_t crowded = heads_[block].crowded & (cells << corner);
-    return crowded == 0 ? to : collect_hanging(block, crowded, item, to);
+    return to;
   }
 
   /// Calls visit(item) for all in cells of the range. `visit` changes nothing here.
@@ -271,59 +262,69 @@ class CellStore {
                            std::int32_t* to) const {
     const std::int32_t* row =
         &blocks_[block].items[static_cast<std::size_t>(2 * (part.y0 * kBlockSide + part.x0))];
-    const auto width = static_cast<int>(2 * (part.x1 - part.x0 + 1));
+    const auto width = 2 * (part.x1 - part.x0 + 1);
     for (std::int64_t y = part.y0; y <= part.y1; ++y, row += 2 * kBlockSide) {
-      to = take_some(row, width, but_for, to);
+      for (std::int64_t i = 0; i < width; ++i) {
+        *to = row[i];
+        to += static_cast<int>(row[i] >= 0) & static_cast<int>(row[i] != but_for);
+      }
     }
     const std::uint64_t crowded = heads_[block].crowded & bits_of(part);
     return crowded == 0 ? to : collect_hanging(block, crowded, but_for, to);
   }
 
-  /// Two items a cell.
-  static constexpr std::integral_constant<int, 2> kOne{};
-  static constexpr std::integral_constant<int, 6> kThree{};
-  template <class Count>
-  static std::int32_t* take_some(const std::int32_t* from,
-                                 Count count,
-                                 std::int32_t but_for,
-                                 std::int32_t* to) {
-    for (int i = 0; i < count; ++i) {
-      const std::int32_t item = from[i];
-      *to = item;
-      to += static_cast<int>(item >= 0) & static_cast<int>(item != but_for);
-    }
-    return to;
+  /// A cell as it is seen from a block beside its own.
+  struct Seen {
+    const std::int32_t* places;
+    std::int32_t block;
+    std::uint64_t crowded;  ///< its bit, if items hang behind its second
+  };
+  static constexpr std::array<std::int32_t, 2> kEmpty{kNone, kNone};
+  /// By its numbers, counted from the corner of the block. REQUIRES: within 8 cells of it.
+  Seen seen_from(const Head& head, int x, int y) const {
+    const std::int32_t block = head.beside[beside(x >> kBlockShift, y >> kBlockShift)];
+    if (block == kNone) return {kEmpty.data(), kNone, 0};
+    const auto at = static_cast<std::size_t>((y & (kSide - 1)) * kSide + (x & (kSide - 1)));
+    return {&blocks_[index(block)].items[2 * at],
+            block,
+            heads_[index(block)].crowded & std::uint64_t{1} << at};
+  }
+
+  /// A row of a block.
+  struct Row {
+    const std::int32_t* places;
+    std::uint64_t crowded;  ///< its cells' bits
+  };
+  static constexpr auto kEmptyRow = [] {
+    std::array<std::int32_t, 2 * kBlockSide> places{};
+    places.fill(kNone);
+    return places;
+  }();
+  Row row_of(std::int32_t block, int y) const {
+    if (block == kNone) return {kEmptyRow.data(), 0};
+    return {&blocks_[index(block)].items[static_cast<std::size_t>(2 * kSide * y)],
+            heads_[index(block)].crowded >> (kSide * y)};
   }
   // The nine cells around one at its block's edge.
-  std::int32_t* collect_across(std::int32_t item,
-                               std::size_t own,
-                               std::uint32_t x,
-                               std::uint32_t y,
-                               std::int32_t* to) const {
-    const Head& head = heads_[own];
+  std::int32_t* collect_across(
+      std::int32_t item, const Head& head, int x, int y, std::int32_t* to) const {
     const std::int32_t* const start = to;
-    const auto from = static_cast<std::int64_t>(x) - 1;
+    const int side = x == 0 ? -1 : x == kSide - 1 ? 1 : 0;
+    const int left = (x - 1) & (kSide - 1), right = (x + 1) & (kSide - 1);
+    const auto bit = [](int column) { return std::uint64_t{1} << column; };
+    const std::uint64_t beside_side = side == 0 ? 0 : bit(side < 0 ? left : right);
+    const std::uint64_t beside_own = (bit(left) | bit(x) | bit(right)) & ~beside_side;
     std::uint64_t crowded = 0;
-    for (std::int64_t row = static_cast<std::int64_t>(y) - 1; row <= y + std::int64_t{1}; ++row) {
-      const std::int64_t dy = row >> kBlockShift;
-      const auto at = 2 * (row & (kBlockSide - 1)) * kBlockSide;
-      const auto take = [&](std::int64_t dx, std::int64_t column, int count) {
-        const std::int32_t block = head.beside[beside(dx, dy)];
-        if (block == kNone) return;
-        crowded |= heads_[index(block)].crowded;
-        const std::int32_t* const first =
-            &blocks_[index(block)].items[static_cast<std::size_t>(at + 2 * column)];
-        to = take_some(first, count, item, to);
-      };
-      if (x == 0) {
-        take(-1, kBlockSide - 1, 2);
-        take(0, 0, 4);
-      } else if (x == kBlockSide - 1) {
-        take(0, from, 4);
-        take(1, 0, 2);
-      } else {
-        take(0, from, 6);
-      }
+    for (int row = y - 1; row <= y + 1; ++row) {
+      const int up = row >> kBlockShift, in_block = row & (kSide - 1);
+      const Row own = row_of(head.beside[beside(0, up)], in_block);
+      const Row other = row_of(head.beside[beside(side, up)], in_block);
+      to = take_three((side < 0 ? other : own).places + 2 * left,
+                      own.places + 2 * x,
+                      (side > 0 ? other : own).places + 2 * right,
+                      item,
+                      to);
+      crowded |= (own.crowded & beside_own) | (other.crowded & beside_side);
     }
     head.looks += static_cast<std::uint32_t>(to - start);
     return crowded == 0 ? to : collect_hanging_across(item, to);
