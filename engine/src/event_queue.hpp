@@ -4,19 +4,22 @@
 // The future events, one a body: the earliest that the body knows of.
 //
 // Events are ordered by (instant, kind, lower id, higher id); instants differ almost always, so ids
-// are looked up on ties alone. A calendar sorts them only as far as it must: a lap of buckets of
-// equal width, a heap for the bucket that is open, and a heap-less rest beyond the lap. A body at
-// rest for ever is in none of them.
+// are looked up on ties alone. A calendar sorts them only as far as it must: a ring of buckets of
+// equal width, a heap for the bucket that is open, and an unsorted rest beyond the ring's lap. A
+// body at rest for ever is in none of them.
 //
 // Source: the calendar of Paul, J. Comput. Phys. 221 (2007) 615. Deviations: bucket numbers are
 // shifted instants, exact integers, so no order is ever decided by rounding; the open bucket is a
 // heap, so that a million events at one instant cost a logarithm each and not a scan, with the
-// instants in its entries, so that comparing touches no other line; width and
-// number of buckets are taken from the events themselves at every lap.
+// instants in its entries, so that comparing touches no other line; a bucket that was opened is at
+// once the last of the lap, so that there is no moment at which all events must be filed anew;
+// width and number of buckets are taken from the events themselves, and again where they no longer
+// suit.
 //
-// Invariants: 1. the heap holds every event that is due before the open bucket ends, a bucket every
-// other one that is due before the lap ends, the rest all others; 2. no event stands above an
-// earlier one in the heap; 3. a bit of occupied_ is set where its bucket holds something.
+// Invariants: 1. the heap holds every event that is due before the open bucket ends, a bucket only
+// such as are due within a lap from the open one's start; those of the rest are due a lap after
+// where the open bucket was when the rest was looked through last, or later; 2. no event stands
+// above an earlier one in the heap; 3. a bit of occupied_ is set where its bucket holds something.
 
 #include "prefetch.hpp"
 
@@ -149,6 +152,8 @@ class EventQueue {
   static constexpr std::size_t kBucketsMax = std::size_t{1} << 22;
   /// A bucket with more events than this, where buckets were cut for one each: time to cut anew.
   static constexpr std::size_t kCrowd = 24;
+  /// The same where so many buckets one after the other have more than this each. Chosen.
+  static constexpr std::size_t kCrowded = 8;
   /// Events that the width of buckets is estimated from.
   static constexpr std::size_t kSample = 128;
 
@@ -184,9 +189,13 @@ class EventQueue {
     if (after < width_) {
       return {kHeap, after < 0 ? 0 : static_cast<std::uint64_t>(after >> coarseness_)};
     }
-    if (after >= lap_left_) return {kRest, 0};
-    return {open_bucket_ + static_cast<std::int32_t>(static_cast<std::int64_t>(after >> shift_)),
-            0};
+    if (after >= lap_) return {kRest, 0};
+    return {beyond_open(static_cast<std::size_t>(after >> shift_)), 0};
+  }
+
+  /// The bucket so many after the open one. REQUIRES: less than a lap.
+  std::int32_t beyond_open(std::size_t buckets) const {
+    return static_cast<std::int32_t>((index(open_bucket_) + buckets) & last_bucket_);
   }
 
   // After the event of a slot has changed. Whatever calls a function is the last to be done, so
@@ -259,61 +268,80 @@ class EventQueue {
     rest_.pop_back();
   }
 
-  // REQUIRES: the heap is empty, the queue is not.
+  // Some events come into the heap, or closer to it. REQUIRES: the heap is empty, the queue is not.
   template <class Ids>
   void open_next_bucket(const Ids& ids) {
-    for (std::size_t word = first_word_; word < occupied_.size(); ++word) {
-      if (occupied_[word] == 0) continue;
-      first_word_ = word;
-      const auto bucket = static_cast<std::int32_t>(
-          word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word])));
-      occupied_[word] &= occupied_[word] - 1;
-      open(bucket);
-      std::int32_t slot = std::exchange(buckets_[index(bucket)], kNull);
-      while (slot != kNull) {
-        Line& entering = line(slot);
-        const std::int32_t next = entering.place;
-        entering.home = kHeap;
-        push({filing_of(entering.event.at).after, slot}, ids);
-        slot = next;
-      }
-      const std::size_t released = index(heap_size_);
-      released_ += released;
-      if (released > kCrowd && 2 * released_ > size_) gather_all();
-      if (heap_size_ == 0) break;
-      look_ahead();
-      return;
+    const std::size_t ahead = next_occupied(1);
+    if (ahead == 0) return cut(ids);
+    // Before the rest could come up.
+    if (slid_ > 0 && slid_ + ahead > buckets_.size() / 2) return look_through_rest(ids);
+    open(ahead);
+    std::int32_t slot = std::exchange(buckets_[index(open_bucket_)], kNull);
+    occupied_[index(open_bucket_) / 64] &= ~(std::uint64_t{1} << (open_bucket_ % 64));
+    while (slot != kNull) {
+      Line& entering = line(slot);
+      const std::int32_t next = entering.place;
+      entering.home = kHeap;
+      push({filing_of(entering.event.at).after, slot}, ids);
+      slot = next;
     }
-    begin_lap(ids);
+    const std::size_t released = index(heap_size_);
+    released_ += released;
+    if (released > kCrowd && 2 * released_ > size_) {
+      gather_all();
+      return cut(ids);
+    }
+    look_ahead();
   }
 
-  void open(std::int32_t bucket) {
-    const Int128 onwards = static_cast<Int128>(bucket - open_bucket_) << shift_;
-    open_bucket_ = bucket;
-    open_start_ += onwards;
-    lap_left_ -= onwards;
+  void open(std::size_t ahead) {
+    open_bucket_ = beyond_open(ahead);
+    open_start_ += static_cast<Int128>(ahead) << shift_;
+    slid_ += ahead;
+  }
+
+  /// How many buckets after the open one the next that holds something is, from the given one on;
+  /// 0: there is none.
+  std::size_t next_occupied(std::size_t from) const {
+    const std::size_t first = index(beyond_open(from));
+    std::size_t word = first / 64;
+    std::uint64_t bits = occupied_[word] & (~std::uint64_t{0} << (first % 64));
+    for (std::size_t looked_at = 0; bits == 0; ++looked_at) {
+      if (looked_at == occupied_.size()) return 0;
+      word = (word + 1) & (occupied_.size() - 1);
+      bits = occupied_[word];
+    }
+    const std::size_t found = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+    const std::size_t ahead = (found - index(open_bucket_)) & last_bucket_;
+    return ahead < from ? 0 : ahead;
   }
 
   // Of the next two buckets: the nearer one's first slot is known by now, the other's is asked for.
   void look_ahead() {
     upcoming_ = kNull;
-    std::uint64_t bits = occupied_[first_word_];
-    for (std::size_t word = first_word_; word < occupied_.size(); bits = occupied_[++word]) {
-      for (; bits != 0; bits &= bits - 1) {
-        const std::int32_t slot =
-            buckets_[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
-        if (upcoming_ != kNull) return prefetch(&lines_[index(slot)]);
-        upcoming_ = slot;
-      }
-      if (word + 1 == occupied_.size()) return;
-    }
+    const std::size_t ahead = next_occupied(1);
+    if (ahead == 0) return;
+    upcoming_ = buckets_[index(beyond_open(ahead))];
+    const std::size_t then = next_occupied(ahead + 1);
+    if (then != 0) prefetch(&lines_[index(buckets_[index(beyond_open(then))])]);
   }
 
-  // The world has become faster or fuller than the buckets were cut for.
+  // What is due within a lap by now leaves the rest. REQUIRES: the heap is empty.
+  template <class Ids>
+  [[gnu::noinline]] void look_through_rest(const Ids& ids) {
+    const bool are_too_wide = released_ > kCrowded * slid_;
+    if (are_too_wide || 2 * rest_.size() > size_ || !suits(buckets_.size())) {
+      gather_all();
+      return cut(ids);
+    }
+    file_rest(ids);
+  }
+
+  // The world has become faster, slower or fuller than the buckets were cut for.
   void gather_all() {
     for (std::int32_t place = 0; place < heap_size_; ++place) add_to_rest(heap_[index(place)].slot);
     heap_size_ = 0;
-    for (std::size_t word = first_word_; word < occupied_.size(); ++word) {
+    for (std::size_t word = 0; word < occupied_.size(); ++word) {
       for (; occupied_[word] != 0; occupied_[word] &= occupied_[word] - 1) {
         const std::size_t bucket =
             word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word]));
@@ -327,26 +355,37 @@ class EventQueue {
     }
   }
 
+  std::size_t buckets_wanted() const {
+    return std::clamp(2 * std::bit_ceil(size_), kBucketsMin, kBucketsMax);
+  }
+  bool suits(std::size_t buckets) const {
+    return buckets >= buckets_wanted() && buckets <= 4 * buckets_wanted();
+  }
+
   // All events are in the rest: cuts buckets for them and files them.
   template <class Ids>
-  void begin_lap(const Ids& ids) {
+  [[gnu::noinline]] void cut(const Ids& ids) {
     Int128 first = detail::bucket_ticks(event_of(rest_.front()).at);
     for (const std::int32_t slot : rest_) {
       first = std::min(first, detail::bucket_ticks(event_of(slot).at));
     }
-    const std::size_t wanted =
-        std::clamp(2 * std::bit_ceil(rest_.size()), kBucketsMin, kBucketsMax);
-    if (buckets_.size() < wanted || buckets_.size() > 4 * wanted) {
-      buckets_.assign(wanted, kNull);
-      occupied_.assign(wanted / 64, 0);
+    if (!suits(buckets_.size())) {
+      buckets_.assign(buckets_wanted(), kNull);
+      occupied_.assign(buckets_wanted() / 64, 0);
+      last_bucket_ = buckets_.size() - 1;
     }
     shift_ = shift_for(first);
     coarseness_ = std::max(shift_ - 64, 0);
     width_ = static_cast<Int128>(1) << shift_;
+    lap_ = width_ * static_cast<Int128>(buckets_.size());
     open_start_ = first;
     open_bucket_ = 0;
-    lap_left_ = width_ * static_cast<Int128>(buckets_.size());
-    first_word_ = 0;
+    file_rest(ids);
+  }
+
+  template <class Ids>
+  void file_rest(const Ids& ids) {
+    slid_ = 0;
     released_ = 0;
     refiled_.swap(rest_);
     rest_.clear();
@@ -493,20 +532,22 @@ class EventQueue {
 
   std::vector<Entry> heap_;  // and room for more
   std::int32_t heap_size_ = 0;
-  std::vector<std::int32_t> buckets_;  // the first slot of each
-  std::vector<std::uint64_t> occupied_;
+  // The first slot of each; as many as some power of two.
+  std::vector<std::int32_t> buckets_ = std::vector<std::int32_t>(kBucketsMin, kNull);
+  std::vector<std::uint64_t> occupied_ = std::vector<std::uint64_t>(kBucketsMin / 64);
   std::vector<std::int32_t> rest_;
   std::vector<std::int32_t> refiled_;  // kept for its memory
 
-  // In 2^-64 s. Before the first lap all events are in the rest.
+  // In 2^-64 s. At first all events are in the rest.
   Int128 open_start_ = -(static_cast<Int128>(1) << 126);
-  Int128 width_ = 0;     // of a bucket
-  Int128 lap_left_ = 0;  // from the open bucket's start
-  int shift_ = 0;        // the logarithm of the width
-  int coarseness_ = 0;   // of Filing::after
+  Int128 width_ = 0;    // of a bucket
+  Int128 lap_ = 0;      // of all buckets
+  int shift_ = 0;       // the logarithm of the width
+  int coarseness_ = 0;  // of Filing::after
   std::int32_t open_bucket_ = 0;
-  std::size_t first_word_ = 0;
-  std::size_t released_ = 0;  // events from buckets, in this lap
+  std::size_t last_bucket_ = kBucketsMin - 1;
+  std::size_t slid_ = 0;      // buckets, since the rest was looked through
+  std::size_t released_ = 0;  // events from buckets, likewise
   std::int32_t upcoming_ = kNull;
 };
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -138,6 +139,27 @@ TEST(EventQueue, KeepsItsOrderWithEventsFarBeyondALapAndNever) {
   run_dry_against_a_sorted_list(300, 8'000, [&](const Instant& now) {
     if (random.one_in(20)) return Instant::never();
     return *later_by(now, random.decades(-18, 9), 0.0);
+  });
+}
+
+// The ring of buckets turns some twenty times, with ever some events beyond its lap, and a few so
+// far beyond that it turns again and again before they come.
+TEST(EventQueue, KeepsItsOrderWhileItsBucketsGoRoundAndRound) {
+  Random random(test::seed_of_run());
+  run_dry_against_a_sorted_list(300, 20'000, [&](const Instant& now) {
+    const double step = -std::log(random.uniform(1e-9, 1));
+    return *later_by(now, random.one_in(50) ? 30 * step : step, 0.0);
+  });
+}
+
+// All wait for one that comes up again and again: most buckets are empty, and what is beyond the
+// lap is most of all.
+TEST(EventQueue, KeepsItsOrderWhereOneIsAMillionTimesAsFastAsTheRest) {
+  Random random(test::seed_of_run());
+  int events = 0;
+  run_dry_against_a_sorted_list(300, 8'000, [&](const Instant& now) {
+    const double scale = ++events <= 300 || random.one_in(200) ? 1e6 : 1;
+    return *later_by(now, scale * random.uniform(0, 1), 0.0);
   });
 }
 
