@@ -85,8 +85,9 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_cells_of_event(Slot slot) const {
   constexpr std::size_t kNear = 20'000;  // bodies; chosen: waiting costs less than asking
   if (slot < 0 || all_pairs() || bodies_.size() < kNear) return;
-  const Slot partner = queue_.event_of(slot).partner;
-  for (const Slot own : {slot, partner < 0 ? slot : partner}) {
+  const Event<S>& event = queue_.event_of(slot);
+  if (event.kind == EventKind::NeighbourRenewal) neighbours_.prefetch_beyond(slot);
+  for (const Slot own : {slot, event.partner < 0 ? slot : event.partner}) {
     neighbours_.prefetch_place(own);
     neighbours_.prefetch_list(own);
     queue_.prefetch_beside(own);

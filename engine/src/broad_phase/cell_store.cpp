@@ -18,10 +18,24 @@ void CellStore::remove(std::int32_t item) {
   if (--heads_[index(block)].items == 0) drop_block(block);
 }
 
+// To another block: most often one beside, which the own one knows.
 void CellStore::move_far(std::int32_t item, std::int64_t dx, std::int64_t dy) {
   const Cell from = cell_of(item);
-  remove(item);
-  insert(item, {from.x + dx, from.y + dy, from.level});
+  const std::int32_t own = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
+  const std::int64_t x = (from.x & (kBlockSide - 1)) + dx, y = (from.y & (kBlockSide - 1)) + dy;
+  const auto is_near = [](std::int64_t i) { return i >= -kBlockSide && i < 2 * kBlockSide; };
+  const std::int32_t block =
+      is_near(x) && is_near(y)
+          ? heads_[index(own)].beside[beside(x >> kBlockShift, y >> kBlockShift)]
+          : kNone;
+  if (block == kNone) {
+    remove(item);
+    return insert(item, {from.x + dx, from.y + dy, from.level});
+  }
+  take_out(item);
+  put_in(item, block, in_block({x, y, from.level}));
+  items_max_ = std::max(items_max_, ++heads_[index(block)].items);
+  if (--heads_[index(own)].items == 0) drop_block(own);
 }
 
 void CellStore::put_in(std::int32_t item, std::int32_t block, std::size_t at) {
@@ -43,9 +57,15 @@ void CellStore::take_out(std::int32_t item) {
   const std::size_t block = index(link.cell) / kBlockCells;
   const std::size_t at = index(link.cell) % kBlockCells;
   std::int32_t* const places = &blocks_[block].items[2 * at];
+  const std::uint64_t bit = std::uint64_t{1} << at;
+  if ((heads_[block].crowded & bit) == 0) {  // the links of others, which are far, are not asked
+    if (places[0] == item) places[0] = places[1];
+    places[1] = kNone;
+    return;
+  }
   if (places[0] == item) {  // the second takes its place, and the next of those behind the second's
     places[0] = places[1];
-    places[1] = places[0] == kNone ? kNone : std::exchange(links_[index(places[0])].next, kNone);
+    places[1] = std::exchange(links_[index(places[0])].next, kNone);
   } else if (places[1] == item) {
     places[1] = link.next;
   } else {
@@ -53,9 +73,7 @@ void CellStore::take_out(std::int32_t item) {
     while (links_[index(before)].next != item) before = links_[index(before)].next;
     links_[index(before)].next = link.next;
   }
-  if (places[1] == kNone || links_[index(places[1])].next == kNone) {
-    heads_[block].crowded &= ~(std::uint64_t{1} << at);
-  }
+  if (links_[index(places[1])].next == kNone) heads_[block].crowded &= ~bit;
 }
 
 bool CellStore::forget_notes(const Range& cells, std::int32_t level) {

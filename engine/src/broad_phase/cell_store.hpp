@@ -88,6 +88,14 @@ class CellStore {
     prefetch(first);
     prefetch(first + 2 * kBlockSide);
   }
+  /// And for what collect_beside() will, when the item has moved one up or down.
+  void prefetch_beyond(std::int32_t item) const {
+    const std::size_t cell = index(links_[index(item)].cell);
+    const std::size_t row = cell % kBlockCells / kBlockSide * kBlockSide;
+    const std::int32_t* const first = &blocks_[cell / kBlockCells].items[2 * row];
+    prefetch(first - 4 * kBlockSide);
+    prefetch(first + 4 * kBlockSide);
+  }
 
   /// Writes all items but one that are in cells near it; returns where it has stopped. REQUIRES: in
   /// a cell; the range lies within two cells of its own, on its level; room at `to` for

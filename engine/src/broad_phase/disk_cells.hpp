@@ -96,6 +96,7 @@ class DiskCells {
   /// contained.
   void prefetch_block(std::int32_t disk) const { store_.prefetch_block(disk); }
   void prefetch_around(std::int32_t disk) const { store_.prefetch_around(disk); }
+  void prefetch_beyond(std::int32_t disk) const { store_.prefetch_beyond(disk); }
 
   /// Puts a disk in whose centre is at (x, y), off by less than 1e-10 of `radius`. False where
   /// cells do not suit it: too far out for their numbers, or much larger than most. `least`: m,

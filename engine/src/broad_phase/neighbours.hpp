@@ -133,6 +133,10 @@ class Neighbours {
       prefetch(list_of(slot).data());
     }
   }
+  /// And for what newcomers() will read, of a disk that is about to cross.
+  void prefetch_beyond(Slot slot) const {
+    if (cells_.contains(slot)) cells_.prefetch_beyond(slot);
+  }
   /// A square of half side `margin`, m, that the body's place may leave before its box is renewed.
   struct Leeway {
     Anchor anchor;
