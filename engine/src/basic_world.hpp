@@ -285,6 +285,7 @@ class BasicWorld final : public WorldCore {
   // basic_world_events.hpp
   bool is_stale(const Event<S>& event) const;
   Slot next_slot();
+  bool is_worth_asking_ahead() const;
   void prefetch_event(Slot slot) const;
   void prefetch_cells_of_event(Slot slot) const;
   bool process(Slot slot, CollisionSink* sink);

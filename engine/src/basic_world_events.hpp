@@ -66,11 +66,17 @@ Slot BasicWorld<S, Laws>::next_slot() {
   return -1;
 }
 
+/// Are there so many bodies that their memory is not at hand?
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::is_worth_asking_ahead() const {
+  constexpr std::size_t kNear = 4'000;  // chosen
+  return bodies_.size() >= kNear && !all_pairs();
+}
+
 /// Asks for what an event that comes up soon will read.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_event(Slot slot) const {
-  constexpr std::size_t kNear = 4'000;  // bodies; chosen: their memory is at hand
-  if (slot < 0 || all_pairs() || bodies_.size() < kNear) return;
+  if (slot < 0 || !is_worth_asking_ahead()) return;
   const Slot partner = queue_.event_of(slot).partner;
   for (const Slot own : {slot, partner < 0 ? slot : partner}) {
     prefetch_all(at(own));
@@ -168,7 +174,7 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   check(instant >= now_, "a contact was scheduled in the past");
   if (has_stalled(instant) || is_squeezed(due_)) return false;
   count_towards_stall();
-  if (has_sights()) {
+  if (has_sights() && is_worth_asking_ahead()) {
     for (const Slot own : {due_.a, due_.b}) {
       if (at(own).is_dynamic()) prefetch_sights(own);
     }

@@ -340,16 +340,21 @@ void BasicWorld<S, Laws>::sharpen(Slot slot) {
     prefetch_all(at(own));
     neighbours_.prefetch_place(own);
   };
-  ask_for(slot);
-  ask_for(guess.partner);
+  const bool asks_ahead = is_worth_asking_ahead();
+  if (asks_ahead) {
+    ask_for(slot);
+    ask_for(guess.partner);
+  }
   if (is_stale(guess)) return predict(slot, /*changed=*/false);
   const std::optional<Contact> contact = contact_of(slot, guess.partner);
   const auto event = contact ? event_of(*contact, guess.partner) : std::nullopt;
   if (!event || !(rough_seconds(event->at, guess.at) < static_cast<double>(guess.clear_for))) {
     return predict_closely(slot, /*changed=*/false);
   }
-  neighbours_.prefetch_list(slot);
-  neighbours_.prefetch_list(guess.partner);
+  if (asks_ahead) {
+    neighbours_.prefetch_list(slot);
+    neighbours_.prefetch_list(guess.partner);
+  }
   due_ = *contact;
   due_slot_ = slot;
   queue_.set(slot, *event, id_lookup());
