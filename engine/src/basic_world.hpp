@@ -287,6 +287,7 @@ class BasicWorld final : public WorldCore {
   Slot next_slot();
   bool is_worth_asking_ahead() const;
   void prefetch_event(Slot slot) const;
+  void prefetch_body(Slot slot) const;
   void prefetch_cells_of_event(Slot slot) const;
   bool process(Slot slot, CollisionSink* sink);
   void resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink);

@@ -57,9 +57,11 @@ template <class S, class Laws>
 Slot BasicWorld<S, Laws>::next_slot() {
   const auto ids = id_lookup();
   while (!queue_.empty()) {
-    const Slot upcoming = queue_.upcoming();
+    const bool opens_bucket = queue_.is_between_buckets();
     const Slot slot = queue_.top(ids);
-    if (queue_.upcoming() != upcoming) prefetch_event(queue_.upcoming());
+    if (opens_bucket && is_worth_asking_ahead()) {
+      queue_.for_each_soon_due([this](Slot soon) { prefetch_event(soon); });
+    }
     if (!has_guess(slot)) return slot;
     sharpen(slot);
   }
@@ -76,14 +78,17 @@ bool BasicWorld<S, Laws>::is_worth_asking_ahead() const {
 /// Asks for what an event that comes up soon will read.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_event(Slot slot) const {
-  if (slot < 0 || !is_worth_asking_ahead()) return;
+  prefetch_body(slot);
   const Slot partner = queue_.event_of(slot).partner;
-  for (const Slot own : {slot, partner < 0 ? slot : partner}) {
-    prefetch_all(at(own));
-    queue_.prefetch_line(own);
-    neighbours_.prefetch_standing(own);
-    prefetch(&sights_.of_slot[index(own)]);
-  }
+  if (partner >= 0) prefetch_body(partner);
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::prefetch_body(Slot slot) const {
+  prefetch_all(at(slot));
+  queue_.prefetch_line(slot);
+  neighbours_.prefetch_standing(slot);
+  prefetch(&sights_.of_slot[index(slot)]);
 }
 
 /// The same, of what can be told once that has come.
@@ -191,7 +196,7 @@ void BasicWorld<S, Laws>::bring_on(Slot slot, const Event<S>& renewal) {
     renew_box(slot, next_margin(slot));
     return predict(slot, /*changed=*/true);
   }
-  prefetch_cells_of_event(queue_.upcoming());
+  prefetch_cells_of_event(queue_.second());
   if (!foresee_newcomers(slot, renewal)) predict(slot, /*changed=*/true);
   const Slot straggler = neighbours_.straggler();
   if (straggler < 0) return;
@@ -371,8 +376,8 @@ void BasicWorld<S, Laws>::resolve(const Contact& contact,
   }
   ++counters_.collisions;
   if (outcome.regularised) ++counters_.regularised;
+  prefetch_cells_of_event(queue_.second());
   if (a.is_dynamic()) predict(contact.a, /*changed=*/true);
-  prefetch_cells_of_event(queue_.upcoming());
   if (b.is_dynamic()) predict(contact.b, /*changed=*/true);
   if (sink == nullptr) return;
   Collision collision = describe(contact, instant, outcome);

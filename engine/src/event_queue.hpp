@@ -104,9 +104,27 @@ class EventQueue {
     return heap_.front().slot;
   }
 
-  /// A slot whose turn comes soon after the first's; -1: none is known. For asking for memory
-  /// ahead.
-  std::int32_t upcoming() const { return upcoming_; }
+  // For asking for memory ahead.
+
+  /// Will top() open a bucket? REQUIRES: !empty()
+  bool is_between_buckets() const { return heap_size_ == 0; }
+  /// Calls visit(slot) for some of those in the open bucket and one in the next, whose events are
+  /// at hand.
+  template <class Visit>
+  void for_each_soon_due(const Visit& visit) const {
+    constexpr std::int32_t kSome = 8;
+    for (std::int32_t i = 0; i < std::min(heap_size_, kSome); ++i) visit(heap_[index(i)].slot);
+    if (upcoming_ != kNull) visit(upcoming_);
+  }
+  /// The slot whose turn most likely comes after the first's; -1: none is known.
+  std::int32_t second() const {
+    if (heap_size_ < 2) return upcoming_;
+    std::int32_t best = 1;
+    for (std::int32_t i = 2; i < std::min(heap_size_, kArity + 1); ++i) {
+      if (heap_[index(i)].after < heap_[index(best)].after) best = i;
+    }
+    return heap_[index(best)].slot;
+  }
 
   /// Asks for what the queue knows of a slot; once that has come, for what set() will read of
   /// others.
@@ -546,9 +564,9 @@ class EventQueue {
   int coarseness_ = 0;  // of Filing::after
   std::int32_t open_bucket_ = 0;
   std::size_t last_bucket_ = kBucketsMin - 1;
-  std::size_t slid_ = 0;      // buckets, since the rest was looked through
-  std::size_t released_ = 0;  // events from buckets, likewise
-  std::int32_t upcoming_ = kNull;
+  std::size_t slid_ = 0;           // buckets, since the rest was looked through
+  std::size_t released_ = 0;       // events from buckets, likewise
+  std::int32_t upcoming_ = kNull;  // the first slot of the bucket that is opened next, as known
 };
 
 }  // namespace stoss::engine
