@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // One process of a discovery experiment.
 //
-//   idl_node daemon DOMAIN WORLD           writes a status and a reply; says "ready"; ends with its
-//   input idl_node unguarded DOMAIN WORLD        the same without the loopback guard idl_node
-//   client DOMAIN COUNT SECONDS   waits for COUNT statuses; prints the milliseconds it took
+//   idl_node daemon DOMAIN WORLD
+//     writes a status and a reply; says "ready"; ends with its input
+//
+//   idl_node unguarded DOMAIN WORLD
+//     the same without the loopback guard
+//
+//   idl_node service DOMAIN WORLD
+//     replies and answers; says "ready"; ends when nothing came for ten seconds
+//
+//   idl_node client DOMAIN COUNT SECONDS
+//     waits for COUNT statuses; prints the milliseconds it took
 #include <stoss/dds/dds.hpp>
 #include <stoss/idl/sequence.hpp>
 #include <stoss/idl/topics.hpp>
@@ -16,6 +24,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -114,9 +123,16 @@ class Service {
       idl::lend(*array, std::span<const double>(numbers_));
     }
     idl::lend(m.id, std::span<const std::uint64_t>(ids_));
+    if (out.chunks > idl::kAnswerReplay) wait_for_reader(mailbox(query.request).answers);
     for (out.chunk = 0; out.chunk < out.chunks; ++out.chunk) {
       if (!mailbox(query.request).answers.write(out)) std::fprintf(stderr, "answer not sent\n");
     }
+  }
+
+  // Few samples are kept for a reader that is yet to be found; more must wait for it.
+  static void wait_for_reader(const dds::Writer<idl::wire::Answer>& writer) {
+    const auto begin = Clock::now();
+    while (writer.readers() == 0 && Clock::now() - begin < 10s) std::this_thread::sleep_for(1ms);
   }
 
   std::string world_;
