@@ -231,6 +231,7 @@ class BasicWorld final : public WorldCore {
                       Foresight& ahead);
   bool see_each_other(Slot a, Slot b) const;
   Event<S> guess_of(const Foresight& ahead) const;
+  void name_partner(Event<S>& event, Slot partner) const;
   Event<S> guess_after(double renewal, const Foresight& ahead) const;
   void schedule(Slot slot, const Foresight& ahead, double renewal);
   double time_to_renewal(Slot slot, const Sight& own, const SightClock& clock) const;
@@ -285,10 +286,15 @@ class BasicWorld final : public WorldCore {
   // basic_world_events.hpp
   bool is_stale(const Event<S>& event) const;
   Slot next_slot();
-  bool is_worth_asking_ahead() const;
+  /// Bodies whose memory is no longer at hand, and those with which a second step of asking for it
+  /// pays. Chosen.
+  static constexpr std::size_t kAskAheadFrom = 4'000;
+  static constexpr std::size_t kAskFurtherFrom = 20'000;
+  bool is_worth_asking_ahead(std::size_t bodies_least) const;
   void prefetch_event(Slot slot) const;
   void prefetch_body(Slot slot) const;
   void prefetch_cells_of_event(Slot slot) const;
+  void prefetch_cells(Slot slot) const;
   bool process(Slot slot, CollisionSink* sink);
   void resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink);
   bool is_squeezed(const Contact& contact) const;

@@ -59,7 +59,7 @@ Slot BasicWorld<S, Laws>::next_slot() {
   while (!queue_.empty()) {
     const bool opens_bucket = queue_.is_between_buckets();
     const Slot slot = queue_.top(ids);
-    if (opens_bucket && is_worth_asking_ahead()) {
+    if (opens_bucket && is_worth_asking_ahead(kAskAheadFrom)) {
       queue_.for_each_soon_due([this](Slot soon) { prefetch_event(soon); });
     }
     if (!has_guess(slot)) return slot;
@@ -68,11 +68,10 @@ Slot BasicWorld<S, Laws>::next_slot() {
   return -1;
 }
 
-/// Are there so many bodies that their memory is not at hand?
+/// Are there so many bodies, and so much memory, that asking for it ahead pays?
 template <class S, class Laws>
-bool BasicWorld<S, Laws>::is_worth_asking_ahead() const {
-  constexpr std::size_t kNear = 4'000;  // chosen
-  return bodies_.size() >= kNear && !all_pairs();
+bool BasicWorld<S, Laws>::is_worth_asking_ahead(std::size_t bodies_least) const {
+  return bodies_.size() >= bodies_least && !all_pairs();
 }
 
 /// Asks for what an event that comes up soon will read.
@@ -94,15 +93,18 @@ void BasicWorld<S, Laws>::prefetch_body(Slot slot) const {
 /// The same, of what can be told once that has come.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_cells_of_event(Slot slot) const {
-  constexpr std::size_t kNear = 20'000;  // bodies; chosen: waiting costs less than asking
-  if (slot < 0 || all_pairs() || bodies_.size() < kNear) return;
+  if (slot < 0 || !is_worth_asking_ahead(kAskFurtherFrom)) return;
   const Event<S>& event = queue_.event_of(slot);
   if (event.kind == EventKind::NeighbourRenewal) neighbours_.prefetch_beyond(slot);
-  for (const Slot own : {slot, event.partner < 0 ? slot : event.partner}) {
-    neighbours_.prefetch_place(own);
-    neighbours_.prefetch_list(own);
-    queue_.prefetch_beside(own);
-  }
+  prefetch_cells(slot);
+  if (event.partner >= 0) prefetch_cells(event.partner);
+}
+
+template <class S, class Laws>
+void BasicWorld<S, Laws>::prefetch_cells(Slot slot) const {
+  neighbours_.prefetch_place(slot);
+  neighbours_.prefetch_list(slot);
+  queue_.prefetch_beside(slot);
 }
 
 // With STOSS_VALIDATE every so many events the whole world is looked at.
@@ -179,7 +181,7 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
   check(instant >= now_, "a contact was scheduled in the past");
   if (has_stalled(instant) || is_squeezed(due_)) return false;
   count_towards_stall();
-  if (has_sights() && is_worth_asking_ahead()) {
+  if (has_sights() && is_worth_asking_ahead(kAskAheadFrom)) {
     for (const Slot own : {due_.a, due_.b}) {
       if (at(own).is_dynamic()) prefetch_sights(own);
     }

@@ -202,15 +202,22 @@ double BasicWorld<S, Laws>::soonest_seen(Slot a, Slot b, const SightClock& clock
 template <class S, class Laws>
 Event<S> BasicWorld<S, Laws>::guess_of(const Foresight& ahead) const {
   Event<S> event;
-  event.partner = ahead.partner;
   if (ahead.standing != nullptr && ahead.standing->partner == ahead.partner) {
+    event.partner = ahead.partner;
     event.partner_changes = ahead.standing->partner_changes;
     event.partner_id = ahead.standing->partner_id;
   } else {
-    event.partner_changes = at(ahead.partner).changes;
-    event.partner_id = at(ahead.partner).id;
+    name_partner(event, ahead.partner);
   }
   return event;
+}
+
+/// With its count of changes and its id, as they are now.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::name_partner(Event<S>& event, Slot partner) const {
+  event.partner = partner;
+  event.partner_changes = at(partner).changes;
+  event.partner_id = at(partner).id;
 }
 
 // Makes the first of what lies ahead the body's event.
@@ -319,9 +326,7 @@ void BasicWorld<S, Laws>::join(Slot holder, Slot changed, float later) {
     } else if (later < theirs.until_guess) {
       theirs.clear_for = safe_difference(theirs.until_guess, later);
       theirs.until_guess = later;
-      theirs.partner = changed;
-      theirs.partner_changes = at(changed).changes;
-      theirs.partner_id = at(changed).id;
+      name_partner(theirs, changed);
     } else {
       theirs.clear_for = safe_difference(later, theirs.until_guess);
     }
@@ -340,7 +345,7 @@ void BasicWorld<S, Laws>::sharpen(Slot slot) {
     prefetch_all(at(own));
     neighbours_.prefetch_place(own);
   };
-  const bool asks_ahead = is_worth_asking_ahead();
+  const bool asks_ahead = is_worth_asking_ahead(kAskAheadFrom);
   if (asks_ahead) {
     ask_for(slot);
     ask_for(guess.partner);

@@ -348,7 +348,7 @@ class EventQueue {
   template <class Ids>
   [[gnu::noinline]] void look_through_rest(const Ids& ids) {
     const bool are_too_wide = released_ > kCrowded * slid_;
-    if (are_too_wide || 2 * rest_.size() > size_ || !suits(buckets_.size())) {
+    if (are_too_wide || 2 * rest_.size() > size_ || are_too_few_or_many()) {
       gather_all();
       return cut(ids);
     }
@@ -376,8 +376,8 @@ class EventQueue {
   std::size_t buckets_wanted() const {
     return std::clamp(2 * std::bit_ceil(size_), kBucketsMin, kBucketsMax);
   }
-  bool suits(std::size_t buckets) const {
-    return buckets >= buckets_wanted() && buckets <= 4 * buckets_wanted();
+  bool are_too_few_or_many() const {
+    return buckets_.size() < buckets_wanted() || buckets_.size() > 4 * buckets_wanted();
   }
 
   // All events are in the rest: cuts buckets for them and files them.
@@ -387,7 +387,7 @@ class EventQueue {
     for (const std::int32_t slot : rest_) {
       first = std::min(first, detail::bucket_ticks(event_of(slot).at));
     }
-    if (!suits(buckets_.size())) {
+    if (are_too_few_or_many()) {
       buckets_.assign(buckets_wanted(), kNull);
       occupied_.assign(buckets_wanted() / 64, 0);
       last_bucket_ = buckets_.size() - 1;
@@ -563,9 +563,9 @@ class EventQueue {
   int shift_ = 0;       // the logarithm of the width
   int coarseness_ = 0;  // of Filing::after
   std::int32_t open_bucket_ = 0;
-  std::size_t last_bucket_ = kBucketsMin - 1;
-  std::size_t slid_ = 0;           // buckets, since the rest was looked through
-  std::size_t released_ = 0;       // events from buckets, likewise
+  std::size_t last_bucket_ = kBucketsMin - 1;  // told from buckets_, but asked for at every filing
+  std::size_t slid_ = 0;                       // buckets, since the rest was looked through
+  std::size_t released_ = 0;                   // events from buckets, likewise
   std::int32_t upcoming_ = kNull;  // the first slot of the bucket that is opened next, as known
 };
 

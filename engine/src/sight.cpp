@@ -86,37 +86,18 @@ SoonestTwo soonest_contacts(Slot slot,
   return all;
 }
 
-template SoonestTwo soonest_contacts(Slot,
-                                     std::span<const Slot>,
-                                     const std::vector<Sight>&,
-                                     double,
-                                     double,
-                                     double,
-                                     const Steady&,
-                                     double*);
-template SoonestTwo soonest_contacts(Slot,
-                                     std::span<const Slot>,
-                                     const std::vector<Sight>&,
-                                     double,
-                                     double,
-                                     double,
-                                     const Growing&,
-                                     double*);
-template SoonestTwo soonest_contacts(Slot,
-                                     std::span<const Slot>,
-                                     const std::vector<Sight>&,
-                                     double,
-                                     double,
-                                     double,
-                                     const Repeating<Steady>&,
-                                     double*);
-template SoonestTwo soonest_contacts(Slot,
-                                     std::span<const Slot>,
-                                     const std::vector<Sight>&,
-                                     double,
-                                     double,
-                                     double,
-                                     const Repeating<Growing>&,
-                                     double*);
+template <class Common>
+using SoonestContacts = SoonestTwo(Slot,
+                                   std::span<const Slot>,
+                                   const std::vector<Sight>&,
+                                   double,
+                                   double,
+                                   double,
+                                   const Common&,
+                                   double*);
+template SoonestContacts<Steady> soonest_contacts<Steady>;
+template SoonestContacts<Growing> soonest_contacts<Growing>;
+template SoonestContacts<Repeating<Steady>> soonest_contacts<Repeating<Steady>>;
+template SoonestContacts<Repeating<Growing>> soonest_contacts<Repeating<Growing>>;
 
 }  // namespace stoss::engine

@@ -23,8 +23,9 @@
 // Accuracy: (2) is below the kernel's time by 1e-9 of itself (float: 3e-5) and a little, and never
 //   above: tests/engine/sight_test.cpp, tests/engine/world/properties_test.cpp.
 
-#include "lanes.hpp"
 #include "screen.hpp"
+
+#include <stoss/engine/lanes.hpp>
 
 #include <cmath>
 #include <cstdint>

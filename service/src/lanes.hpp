@@ -5,21 +5,16 @@
 #pragma once
 
 #include <stoss/engine/double_word.hpp>
+#include <stoss/engine/lanes.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 
-// Without AVX compilers warn that four doubles are passed in another way than with it. Nothing here
-// is passed: every function is inlined.
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi"
-#endif
-
 namespace stoss::service {
 
 inline constexpr std::size_t kLanes = 4;
-using Four = double __attribute__((vector_size(32)));
+using engine::Four;
 using FourWords = std::uint64_t __attribute__((vector_size(32)));
 
 struct Lanes {
@@ -71,14 +66,8 @@ namespace stoss::service {
   std::memcpy(&b, &second, sizeof b);
   std::memcpy(&c, &third, sizeof c);
   std::memcpy(&d, &fourth, sizeof d);
-  const Four ab_hi = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Four ab_lo = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Four cd_hi = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  const Four cd_lo = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  return {{{__builtin_shufflevector(ab_hi, cd_hi, 0, 1, 4, 5)},
-           {__builtin_shufflevector(ab_lo, cd_lo, 0, 1, 4, 5)}},
-          {{__builtin_shufflevector(ab_hi, cd_hi, 2, 3, 6, 7)},
-           {__builtin_shufflevector(ab_lo, cd_lo, 2, 3, 6, 7)}}};
+  engine::lanes::transpose(a, b, c, d);
+  return {{{a}, {b}}, {{c}, {d}}};
 }
 
 /// Whole numbers below 2^52 as doubles: they are the last bits of those from 2^52 on.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worlds of the bench, as small as all pairs can run them: the same bytes, and at every tick
-// rate.
+// The worlds of the bench, as small as all pairs can run them: the same bytes from all pairs,
+// ticked, as from neighbours in one leap.
 
 #include "bench/scenes.hpp"
-#include "determinism/run_scene.hpp"
+#include "determinism/table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,12 +13,6 @@
 #include <vector>
 
 namespace stoss::determinism {
-
-void PrintTo(const Digests& d, std::ostream* out) {
-  *out << d.collisions << " collisions, log " << d.log << ", motions " << d.motions << ", state "
-       << d.state;
-}
-
 namespace {
 
 struct Case {
@@ -52,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Bench, BenchScene, testing::ValuesIn(cases()), [](const
   return tested.param.name;
 });
 
-TEST_P(BenchScene, GivesTheBytesOfAllPairsAtEveryTickRate) {
+TEST_P(BenchScene, GivesTheBytesOfAllPairsTicked) {
   const bench::BenchScene scene = GetParam().make();
   const Bodies bodies{.start = {}, .disks = scene.disks, .walls = scene.walls};
   const Digests neighbours = run_scene(bodies, GetParam().until);

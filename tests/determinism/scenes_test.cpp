@@ -12,10 +12,6 @@
 namespace stoss::determinism {
 
 void PrintTo(const Row& row, std::ostream* out) { *out << row.scene; }
-void PrintTo(const Digests& d, std::ostream* out) {
-  *out << d.collisions << " collisions, log " << hexadecimal(d.log) << ", motions "
-       << hexadecimal(d.motions) << ", state " << hexadecimal(d.state);
-}
 
 namespace {
 

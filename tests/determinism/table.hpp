@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <fstream>
 #include <map>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ inline std::string hexadecimal(std::uint64_t word) {
   std::string text(16, '0');
   for (std::size_t i = 0; i < 16; ++i) text[15 - i] = "0123456789abcdef"[(word >> (4 * i)) & 15U];
   return text;
+}
+
+/// For GoogleTest's messages.
+inline void PrintTo(const Digests& d, std::ostream* out) {
+  *out << d.collisions << " collisions, log " << hexadecimal(d.log) << ", motions "
+       << hexadecimal(d.motions) << ", state " << hexadecimal(d.state);
 }
 
 inline std::vector<Row> read_table(const std::string& path) {

@@ -9,7 +9,7 @@ void CellStore::insert(std::int32_t item, const Cell& cell) {
   if (index(item) >= links_.size()) links_.resize(index(item) + 1);
   const std::int32_t block = block_for({cell.x >> kBlockShift, cell.y >> kBlockShift, cell.level});
   items_max_ = std::max(items_max_, ++heads_[index(block)].items);
-  put_in(item, block, in_block(cell));
+  put_in(item, block, in_block(cell.x, cell.y));
 }
 
 void CellStore::remove(std::int32_t item) {
@@ -33,7 +33,7 @@ void CellStore::move_far(std::int32_t item, std::int64_t dx, std::int64_t dy) {
     return insert(item, {from.x + dx, from.y + dy, from.level});
   }
   take_out(item);
-  put_in(item, block, in_block({x, y, from.level}));
+  put_in(item, block, in_block(x, y));
   items_max_ = std::max(items_max_, ++heads_[index(block)].items);
   if (--heads_[index(own)].items == 0) drop_block(own);
 }

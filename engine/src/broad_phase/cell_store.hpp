@@ -81,18 +81,14 @@ class CellStore {
     prefetch_all(heads_[index(links_[index(item)].cell) / kBlockCells]);
   }
   void prefetch_around(std::int32_t item) const {
-    const std::size_t cell = index(links_[index(item)].cell);
-    const std::size_t row = cell % kBlockCells / kBlockSide * kBlockSide;
-    const std::int32_t* const first = &blocks_[cell / kBlockCells].items[2 * row];
+    const std::int32_t* const first = row_where(item);
     prefetch(first - 2 * kBlockSide);
     prefetch(first);
     prefetch(first + 2 * kBlockSide);
   }
   /// And for what collect_beside() will, when the item has moved one up or down.
   void prefetch_beyond(std::int32_t item) const {
-    const std::size_t cell = index(links_[index(item)].cell);
-    const std::size_t row = cell % kBlockCells / kBlockSide * kBlockSide;
-    const std::int32_t* const first = &blocks_[cell / kBlockCells].items[2 * row];
+    const std::int32_t* const first = row_where(item);
     prefetch(first - 4 * kBlockSide);
     prefetch(first + 4 * kBlockSide);
   }
@@ -272,10 +268,7 @@ class CellStore {
         &blocks_[block].items[static_cast<std::size_t>(2 * (part.y0 * kBlockSide + part.x0))];
     const auto width = 2 * (part.x1 - part.x0 + 1);
     for (std::int64_t y = part.y0; y <= part.y1; ++y, row += 2 * kBlockSide) {
-      for (std::int64_t i = 0; i < width; ++i) {
-        *to = row[i];
-        to += static_cast<int>(row[i] >= 0) & static_cast<int>(row[i] != but_for);
-      }
+      for (std::int64_t i = 0; i < width; ++i) to = take_one(row[i], but_for, to);
     }
     const std::uint64_t crowded = heads_[block].crowded & bits_of(part);
     return crowded == 0 ? to : collect_hanging(block, crowded, but_for, to);
@@ -287,12 +280,11 @@ class CellStore {
     std::int32_t block;
     std::uint64_t crowded;  ///< its bit, if items hang behind its second
   };
-  static constexpr std::array<std::int32_t, 2> kEmpty{kNone, kNone};
   /// By its numbers, counted from the corner of the block. REQUIRES: within 8 cells of it.
   Seen seen_from(const Head& head, int x, int y) const {
     const std::int32_t block = head.beside[beside(x >> kBlockShift, y >> kBlockShift)];
-    if (block == kNone) return {kEmpty.data(), kNone, 0};
-    const auto at = static_cast<std::size_t>((y & (kSide - 1)) * kSide + (x & (kSide - 1)));
+    if (block == kNone) return {kEmptyRow.data(), kNone, 0};
+    const std::size_t at = in_block(x, y);
     return {&blocks_[index(block)].items[2 * at],
             block,
             heads_[index(block)].crowded & std::uint64_t{1} << at};
@@ -376,10 +368,14 @@ class CellStore {
     const std::int32_t block = table_[entry_of(key)].block;
     return block != kNone ? block : make_block(key);
   }
-  /// Where in its block a cell is.
-  static std::size_t in_block(const Cell& cell) {
-    return static_cast<std::size_t>((cell.y & (kBlockSide - 1)) * kBlockSide +
-                                    (cell.x & (kBlockSide - 1)));
+  /// Where in its block a cell with these numbers is.
+  static std::size_t in_block(std::int64_t x, std::int64_t y) {
+    return static_cast<std::size_t>((y & (kBlockSide - 1)) * kBlockSide + (x & (kBlockSide - 1)));
+  }
+  /// The first place of the row of its block where the item is.
+  const std::int32_t* row_where(std::int32_t item) const {
+    const std::size_t cell = index(links_[index(item)].cell);
+    return &blocks_[cell / kBlockCells].items[2 * (cell % kBlockCells / kBlockSide * kBlockSide)];
   }
   void move_far(std::int32_t item, std::int64_t dx, std::int64_t dy);
   void put_in(std::int32_t item, std::int32_t block, std::size_t at);

@@ -48,8 +48,9 @@ std::optional<DiskCells::Step> DiskCells::move(std::int32_t disk, double x, doub
 }
 
 Aabb DiskCells::box_of(std::int32_t disk) const {
-  const Level& level = level_of(store_.cell_of(disk).level);
-  const Cage cage = cage_of(disk);
+  const Cell cell = store_.cell_of(disk);
+  const Level& level = level_of(cell.level);
+  const Cage cage = cage_in(level, cell);
   const double half =
       Extent::padded(cage.half + level.radius_max, std::max(std::abs(cage.x), std::abs(cage.y)));
   return {cage.x - half, cage.y - half, cage.x + half, cage.y + half};

@@ -17,6 +17,15 @@ inline constexpr std::int32_t kNoItem = -1;
 /// take_three() may write so many numbers behind where it stops.
 inline constexpr std::size_t kWrittenBeyond = 8;
 
+/// Writes what a place holds, unless that is nothing or the one item; returns where it has stopped.
+/// May write one number behind that.
+[[gnu::always_inline]] inline std::int32_t* take_one(std::int32_t item,
+                                                     std::int32_t but_for,
+                                                     std::int32_t* to) {
+  *to = item;
+  return to + (static_cast<int>(item >= 0) & static_cast<int>(item != but_for));
+}
+
 #if defined(__AVX2__)
 
 namespace detail {
@@ -74,11 +83,7 @@ inline std::int32_t* take_three(const std::int32_t* first,
                                 std::int32_t but_for,
                                 std::int32_t* to) {
   for (const std::int32_t* const cell : {first, second, third}) {
-    for (int place = 0; place < 2; ++place) {
-      const std::int32_t item = cell[place];
-      *to = item;
-      to += static_cast<int>(item >= 0) & static_cast<int>(item != but_for);
-    }
+    for (int place = 0; place < 2; ++place) to = take_one(cell[place], but_for, to);
   }
   return to;
 }

@@ -4,6 +4,8 @@
 // Four doubles side by side, and what one double and four have in common, so that one formula
 // serves both. Each lane is rounded as a double by itself is: the lanes of a result do not depend
 // on the instruction set, only the time that they take.
+//
+// Public for those who evaluate what the engine tells, many motions at a time.
 
 #include <cmath>
 #include <cstdint>
