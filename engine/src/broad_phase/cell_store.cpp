@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "broad_phase/cell_store.hpp"
 
+#include "broad_phase/grow.hpp"
+
 #include <utility>
 
 namespace stoss::engine {
 
 void CellStore::insert(std::int32_t item, const Cell& cell) {
-  if (index(item) >= links_.size()) links_.resize(index(item) + 1);
+  make_line_of(index(item), links_);
   const std::int32_t block = block_for({cell.x >> kBlockShift, cell.y >> kBlockShift, cell.level});
   items_max_ = std::max(items_max_, ++heads_[index(block)].items);
   put_in(item, block, in_block(cell.x, cell.y));
@@ -85,7 +87,7 @@ bool CellStore::forget_notes(const Range& cells, std::int32_t level) {
   if (blocks.x1 - blocks.x0 >= kMany || blocks.y1 - blocks.y0 >= kMany) return false;
   for (std::int64_t y = blocks.y0; y <= blocks.y1; ++y) {
     for (std::int64_t x = blocks.x0; x <= blocks.x1; ++x) {
-      const std::int32_t block = table_[entry_of({x, y, level})].block;
+      const std::int32_t block = table_[entry_of({x, y, level})];
       if (block != kNone) heads_[index(block)].note.as_of = 0;
     }
   }
@@ -122,9 +124,9 @@ std::int32_t CellStore::some_item_of(std::int32_t level) {
   constexpr int kFew = 16;
   for (int i = 0; i < kFew; ++i) {
     looked_at_ = (looked_at_ + 1) & (table_.size() - 1);
-    const Entry& entry = table_[looked_at_];
-    if (entry.block == kNone || entry.key.level != level) continue;
-    for (const std::int32_t item : blocks_[index(entry.block)].items) {
+    const std::int32_t block = table_[looked_at_];
+    if (block == kNone || heads_[index(block)].key.level != level) continue;
+    for (const std::int32_t item : blocks_[index(block)].items) {
       if (item != kNone) return item;
     }
   }
@@ -133,9 +135,9 @@ std::int32_t CellStore::some_item_of(std::int32_t level) {
 
 std::uint64_t CellStore::take_looks(std::int32_t level) {
   std::uint64_t looks = 0;
-  for (const Entry& entry : table_) {
-    if (entry.block == kNone || entry.key.level != level) continue;
-    looks += std::exchange(heads_[index(entry.block)].looks, 0U);
+  for (const std::int32_t block : table_) {
+    if (block == kNone || heads_[index(block)].key.level != level) continue;
+    looks += std::exchange(heads_[index(block)].looks, 0U);
   }
   return looks;
 }
@@ -144,6 +146,8 @@ std::int32_t CellStore::make_block(const Cell& key) {
   std::int32_t block;
   if (free_blocks_.empty()) {
     block = static_cast<std::int32_t>(blocks_.size());
+    make_room_for_more(blocks_);
+    make_room_for_more(heads_);
     blocks_.emplace_back();
     heads_.emplace_back();
   } else {
@@ -154,7 +158,7 @@ std::int32_t CellStore::make_block(const Cell& key) {
   const PooledList inherited = heads_[index(block)].note.list;
   heads_[index(block)] = {key, 0, 0, 0, {}, {0, inherited}};
   if (2 * ++entries_ > table_.size()) grow_table();
-  table_[entry_of(key)] = {key, block};
+  table_[entry_of(key)] = block;
   link(block, block);
   return block;
 }
@@ -170,7 +174,7 @@ void CellStore::link(std::int32_t block, std::int32_t as) {
   const Cell key = heads_[index(block)].key;
   for (std::int64_t dy = -1; dy <= 1; ++dy) {
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
-      const std::int32_t other = table_[entry_of({key.x + dx, key.y + dy, key.level})].block;
+      const std::int32_t other = table_[entry_of({key.x + dx, key.y + dy, key.level})];
       heads_[index(block)].beside[beside(dx, dy)] = other;
       if (other != kNone) heads_[index(other)].beside[beside(-dx, -dy)] = as;
     }
@@ -178,10 +182,11 @@ void CellStore::link(std::int32_t block, std::int32_t as) {
 }
 
 void CellStore::grow_table() {
-  const std::vector<Entry> old = std::exchange(table_, std::vector<Entry>(2 * table_.size()));
+  const std::vector<std::int32_t> old =
+      std::exchange(table_, std::vector<std::int32_t>(2 * table_.size(), kNone));
   --table_shift_;
-  for (const Entry& entry : old) {
-    if (entry.block != kNone) table_[entry_of(entry.key)] = entry;
+  for (const std::int32_t block : old) {
+    if (block != kNone) table_[entry_of(heads_[index(block)].key)] = block;
   }
 }
 
@@ -189,13 +194,14 @@ void CellStore::grow_table() {
 void CellStore::drop_entry(std::size_t hole) {
   --entries_;
   const std::size_t mask = table_.size() - 1;
-  for (std::size_t i = (hole + 1) & mask; table_[i].block != kNone; i = (i + 1) & mask) {
-    const auto home = static_cast<std::size_t>(hash_of(table_[i].key) >> table_shift_);
+  for (std::size_t i = (hole + 1) & mask; table_[i] != kNone; i = (i + 1) & mask) {
+    const Cell& key = heads_[index(table_[i])].key;
+    const auto home = static_cast<std::size_t>(hash_of(key) >> table_shift_);
     if (((i - home) & mask) < ((i - hole) & mask)) continue;
     table_[hole] = table_[i];
     hole = i;
   }
-  table_[hole].block = kNone;
+  table_[hole] = kNone;
 }
 
 }  // namespace stoss::engine

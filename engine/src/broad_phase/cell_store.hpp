@@ -159,7 +159,7 @@ class CellStore {
     const std::int64_t by1 = cells.y1 >> kBlockShift, bx1 = cells.x1 >> kBlockShift;
     for (std::int64_t by = cells.y0 >> kBlockShift; by <= by1; ++by) {
       for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= bx1; ++bx) {
-        const std::int32_t block = table_[entry_of({bx, by, level})].block;
+        const std::int32_t block = table_[entry_of({bx, by, level})];
         if (block != kNone) for_each_in(block, part_of(cells, bx, by), visit);
       }
     }
@@ -168,9 +168,9 @@ class CellStore {
   /// The same for all of a level.
   template <class Visit>
   void for_each(std::int32_t level, const Visit& visit) const {
-    for (const Entry& entry : table_) {
-      if (entry.block == kNone || entry.key.level != level) continue;
-      for_each_in(entry.block, {0, 0, kBlockSide - 1, kBlockSide - 1}, visit);
+    for (const std::int32_t block : table_) {
+      if (block == kNone || heads_[index(block)].key.level != level) continue;
+      for_each_in(block, {0, 0, kBlockSide - 1, kBlockSide - 1}, visit);
     }
   }
 
@@ -212,13 +212,8 @@ class CellStore {
   }
 
  private:
-  /// A place in the table; key and block in one, for a search reads both.
-  struct Entry {
-    Cell key;  ///< the block's numbers along the axes, and its level
-    std::int32_t block = kNone;
-  };
   struct alignas(64) Head {
-    Cell key;                   ///< likewise
+    Cell key;                   ///< the block's numbers along the axes, and its level
     std::uint64_t crowded = 0;  ///< a bit for each cell with items behind its second
     std::int32_t items = 0;
     mutable std::uint32_t looks = 0;
@@ -360,12 +355,12 @@ class CellStore {
   /// The place of the key in the table, or where it would be.
   std::size_t entry_of(const Cell& key) const {
     for (std::size_t i = hash_of(key) >> table_shift_;; i = (i + 1) & (table_.size() - 1)) {
-      if (table_[i].block == kNone || table_[i].key == key) return i;
+      if (table_[i] == kNone || heads_[index(table_[i])].key == key) return i;
     }
   }
   /// The block of a key, made if need be.
   std::int32_t block_for(const Cell& key) {
-    const std::int32_t block = table_[entry_of(key)].block;
+    const std::int32_t block = table_[entry_of(key)];
     return block != kNone ? block : make_block(key);
   }
   /// Where in its block a cell with these numbers is.
@@ -390,7 +385,8 @@ class CellStore {
   std::vector<Block> blocks_;
   std::vector<Head> heads_;  // of the blocks
   std::vector<std::int32_t> free_blocks_;
-  std::vector<Entry> table_ = std::vector<Entry>(64);  // open addressing
+  /// Of blocks, by their keys; open addressing. A block beside another is known without it.
+  std::vector<std::int32_t> table_ = std::vector<std::int32_t>(64, kNone);
   std::size_t entries_ = 0;
   std::int32_t items_max_ = 0;  // that a block has ever held
   std::size_t looked_at_ = 0;   // of the table, by some_item_of()

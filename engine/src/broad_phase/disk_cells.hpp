@@ -69,7 +69,7 @@ class DiskCells {
   /// Is nothing to be found by bystanders() or on other levels? REQUIRES: contained.
   bool is_by_itself(std::int32_t disk) const {
     const CellStore::Note& note = store_.note_of_block_of(disk);
-    return note.as_of == changes_ && note.list.size == 0 && levels_.size() == 1;
+    return note.as_of == changes_ && lists_.size(note.list) == 0 && levels_.size() == 1;
   }
   /// What may be near the disk without standing in a cell, and more: all that `search(box, found)`
   /// has added to `found` for a box around the disk's block of cells. None where that is much.
@@ -85,8 +85,9 @@ class DiskCells {
       lists_.assign(note->list, asked_);
       note->as_of = changes_;
     }
-    if (note->list.size == kMany) return std::nullopt;
-    return lists_.items(note->list);
+    const auto known = lists_.items(note->list);
+    if (known.size() == kMany) return std::nullopt;
+    return known;
   }
   /// To be told of each box of a body in no cell, when it comes and when it goes.
   void note_bystander(const Aabb& box);

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "broad_phase/neighbours.hpp"
 
+#include "broad_phase/grow.hpp"
+
 #include <algorithm>
 
 namespace stoss::engine {
 
-void ListPool::grow(PooledList& list, std::size_t wanted) {
-  PooledList larger{0, list.size, list.room_class};
-  while (room(larger) < wanted) larger.room_class = (larger.room_class + 1) & 31;
-  auto& free = free_[larger.room_class];
-  if (free.empty()) {
-    larger.offset = static_cast<std::uint32_t>(memory_.size());
-    memory_.resize(memory_.size() + room(larger));
+ListPool::Word ListPool::grow(PooledList& list, std::size_t wanted) {
+  const std::uint32_t held = size(list);
+  std::uint32_t room_class = Word(memory_[list.head]).room_class();
+  while (Word::of_class(room_class).room() < wanted) ++room_class;
+  const Word word = Word::of_class(room_class);
+  PooledList larger{free_[room_class]};
+  if (larger.head != 0) {
+    free_[room_class] = static_cast<std::uint32_t>(memory_[larger.head + 1]);
   } else {
-    larger.offset = free.back();
-    free.pop_back();
+    larger.head = static_cast<std::uint32_t>(memory_.size());
+    make_line_of(memory_.size() + word.room(), memory_);
   }
-  std::copy_n(memory_.begin() + list.offset, list.size, memory_.begin() + larger.offset);
+  std::copy_n(memory_.data() + list.head + 1, held, memory_.data() + larger.head + 1);
+  memory_[larger.head] = word.with_size(held);
   release(list);
   list = larger;
+  return Word(memory_[list.head]);
 }
 
 double Neighbours::next_margin(Slot slot) const {

@@ -30,6 +30,7 @@
 #include "broad_phase/aabb_tree.hpp"
 #include "broad_phase/box_grid.hpp"
 #include "broad_phase/disk_cells.hpp"
+#include "broad_phase/grow.hpp"
 #include "broad_phase/list_pool.hpp"
 #include "broad_phase/place.hpp"
 #include "prefetch.hpp"
@@ -190,7 +191,7 @@ class Neighbours {
              const Margin& margin,
              const Interacts& interacts,
              const Copies& copies = {}) {
-    if (index(slot) >= standing_.size()) standing_.resize(index(slot) + 1);
+    make_line_of(index(slot), standing_);
     const bool was_known = remember_neighbours(slot, copies);
     const bool in_cells = role == Role::DynamicDisk && margin.may_stand_in_cells &&
                           (!was_known || suits_cells(slot, margin.wanted));
@@ -221,7 +222,7 @@ class Neighbours {
   void note_work(Slot slot) {
     if (cells_.contains(slot)) return;
     Place& here = place(slot);
-    here.work = std::min(here.work + standing_[index(slot)].list.size, kWorkMax);
+    here.work = std::min(here.work + pool_.size(standing_[index(slot)].list), kWorkMax);
   }
 
   /// Has a body without a cell so many neighbours because of its margin that its box had better be
@@ -252,6 +253,7 @@ class Neighbours {
     bool is_marked = false;
     std::uint8_t flown = 0;  ///< cells that it has crossed to since it last had an event, or kFar
   };
+  static_assert(sizeof(Standing) == 8);
 
   /// Cells; chosen: a disk that flies farther without an event is in nobody's way.
   static constexpr std::uint8_t kFar = 24;
@@ -264,7 +266,7 @@ class Neighbours {
   double work_of_search(Slot slot) const {
     constexpr double kSearchWork = 30;
     constexpr double kFoundWork = 0.5;
-    return kSearchWork + kFoundWork * static_cast<double>(standing_[index(slot)].list.size);
+    return kSearchWork + kFoundWork * pool_.size(standing_[index(slot)].list);
   }
   /// The looks at neighbours that are some because of the margin: the part by which the box grows
   /// with it. A disk among far smaller ones has most of its neighbours anyway.
