@@ -30,6 +30,7 @@ std::unique_ptr<WorldCore> make_effects_core<long double>(const WorldOptions&) {
 #include "broad_phase/box_grid.cpp"
 #include "broad_phase/cell_store.cpp"
 #include "broad_phase/disk_cells.cpp"
+#include "broad_phase/list_pool.cpp"
 #include "broad_phase/neighbours.cpp"
 #include "effects.cpp"
 #include "features.cpp"

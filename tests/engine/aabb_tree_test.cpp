@@ -25,6 +25,10 @@ Aabb random_box(Random& random) {
   return {x, y, x + width, y + height};
 }
 
+bool is_same(const Aabb& a, const Aabb& b) {
+  return a.low_x == b.low_x && a.low_y == b.low_y && a.high_x == b.high_x && a.high_y == b.high_y;
+}
+
 std::vector<std::int32_t> found_in(const AabbTree& tree, const Aabb& box) {
   std::vector<std::int32_t> found;
   tree.query(box, [&](std::int32_t item) { found.push_back(item); });
@@ -44,18 +48,21 @@ TEST(AabbTree, FindsEveryOverlapAndNothingElseUnderRandomWork) {
   Random random(test::seed_of_run());
   AabbTree tree;
   std::map<std::int32_t, Aabb> boxes;
+  std::map<std::int32_t, std::int32_t> leaf_of;
   EXPECT_TRUE(found_in(tree, {-1, -1, 1, 1}).empty());
   for (int i = 0; i < 20'000; ++i) {
     const auto item = static_cast<std::int32_t>(random.below(200));
-    ASSERT_EQ(tree.contains(item), boxes.contains(item));
     if (boxes.contains(item)) {
-      tree.remove(item);
+      tree.remove(leaf_of[item]);
       boxes.erase(item);
     }
     if (!random.one_in(3)) {
       const Aabb box = random_box(random);
-      tree.insert(item, box);
+      leaf_of[item] = tree.insert(item, box);
       boxes[item] = box;
+    }
+    for (const auto& [other, box] : boxes) {
+      ASSERT_TRUE(is_same(tree.box_of(leaf_of[other]), box));
     }
     const Aabb box = random_box(random);
     ASSERT_EQ(found_in(tree, box), found_slowly(boxes, box));
@@ -73,13 +80,16 @@ TEST(AabbTree, TouchingBoxesOverlap) {
 TEST(AabbTree, StaysShallowUnderSortedInsertionAndRemoval) {
   AabbTree tree;
   constexpr std::int32_t kCount = 60'000;
-  for (std::int32_t i = 0; i < kCount; ++i) tree.insert(i, {1.0 * i, 0, i + 0.5, 1});
+  std::vector<std::int32_t> leaf_of;
+  for (std::int32_t i = 0; i < kCount; ++i) {
+    leaf_of.push_back(tree.insert(i, {1.0 * i, 0, i + 0.5, 1}));
+  }
   for (std::int32_t i = 0; i < kCount; i += 997) {
     EXPECT_EQ(found_in(tree, {i + 0.1, 0, i + 0.2, 1}), (std::vector<std::int32_t>{i}));
   }
   EXPECT_EQ(found_in(tree, {-1, 0, 1e9, 1}).size(), static_cast<std::size_t>(kCount));
   for (std::int32_t i = 0; i < kCount; ++i) {
-    if (i % 100 != 0) tree.remove(i);
+    if (i % 100 != 0) tree.remove(leaf_of[static_cast<std::size_t>(i)]);
   }
   EXPECT_EQ(found_in(tree, {-1, 0, 1e9, 1}).size(), static_cast<std::size_t>(kCount / 100));
 }

@@ -21,6 +21,7 @@ Aabb square(double x, double y, double half) { return {x - half, y - half, x + h
 struct Item {
   Aabb tight;
   double margin = 0;
+  std::int32_t line = 0;  ///< where it stands in the grid
   Aabb box() const { return grown(tight, margin); }
 };
 
@@ -54,14 +55,14 @@ TEST(BoxGrid, FindsEveryOverlapAndNothingElseUnderRandomWork) {
   EXPECT_TRUE(found_in(grid, {-1, -1, 1, 1}).empty());
   for (int i = 0; i < 20'000; ++i) {
     const auto number = static_cast<std::int32_t>(random.below(300));
-    ASSERT_EQ(grid.contains(number), items.contains(number));
     if (items.contains(number)) {
-      grid.remove(number);
+      grid.remove(items[number].line);
       items.erase(number);
     }
     if (!random.one_in(3)) {
-      items[number] = random_item(random);
-      grid.insert(number, items[number].tight, items[number].margin);
+      Item item = random_item(random);
+      item.line = grid.insert(number, item.tight, item.margin);
+      items[number] = item;
     }
     const Aabb box = random.one_in(20) ? square(0, 0, 1e12) : random_item(random).tight;
     ASSERT_EQ(found_in(grid, box), found_slowly(items, box));

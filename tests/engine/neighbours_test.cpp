@@ -72,10 +72,10 @@ void expect_everybody_known(bool in_cells) {
       slots.erase(known);
     } else {
       const Body body = random_body(random, slot);
-      if (known == slots.end()) slots.push_back(slot);
+      const bool is_known = known != slots.end();
+      if (!is_known) slots.push_back(slot);
       const Margin margin{random.uniform(0, 2), 1e-6, in_cells};
       const auto interacts = [slot](Slot other) { return interact(slot, other); };
-      const bool is_known = known != slots.end();
       if (!is_known || !neighbours.cross(slot, body.here.x, body.here.y, interacts)) {
         neighbours.renew(slot, role_of(slot), body.tight, body.here, margin, interacts);
       }

@@ -46,17 +46,13 @@ std::int32_t AabbTree::best_sibling(const Aabb& box) const {
   return i;
 }
 
-void AabbTree::insert(std::int32_t item, const Aabb& box) {
-  if (item >= static_cast<std::int32_t>(leaf_of_.size())) {
-    leaf_of_.resize(index(item) + 1, kNull);
-  }
+std::int32_t AabbTree::insert(std::int32_t item, const Aabb& box) {
   const std::int32_t leaf = allocate();
   node(leaf).box = box;
   node(leaf).item = item;
-  leaf_of_[index(item)] = leaf;
   if (root_ == kNull) {
     root_ = leaf;
-    return;
+    return leaf;
   }
   const std::int32_t sibling = best_sibling(box);
   const std::int32_t joint = allocate();
@@ -66,11 +62,10 @@ void AabbTree::insert(std::int32_t item, const Aabb& box) {
   node(sibling).parent = joint;
   node(leaf).parent = joint;
   refit_upwards(joint);
+  return leaf;
 }
 
-void AabbTree::remove(std::int32_t item) {
-  const std::int32_t leaf = leaf_of_[index(item)];
-  leaf_of_[index(item)] = kNull;
+void AabbTree::remove(std::int32_t leaf) {
   const std::int32_t joint = node(leaf).parent;
   free_.push_back(leaf);
   if (joint == kNull) {

@@ -7,8 +7,8 @@
 // Source: surface-area-guided insertion and rotation-free refitting after Catto, "Dynamic Bounding
 // Volume Hierarchies", GDC 2019; height balance by AVL rotations.
 //
-// Invariants: 1. every inner node has two children and the union of their boxes; 2. a leaf's item
-// is found by leaf_of_[item]; 3. heights of siblings differ by at most one after balance().
+// Invariants: 1. every inner node has two children and the union of their boxes; 2. a leaf keeps
+// its number while its item is in; 3. heights of siblings differ by at most one after balance().
 
 #include "broad_phase/aabb.hpp"
 
@@ -19,15 +19,11 @@ namespace stoss::engine {
 
 class AabbTree {
  public:
-  /// Puts `item` in with `box`. REQUIRES: not in the tree.
-  void insert(std::int32_t item, const Aabb& box);
-  /// REQUIRES: in the tree.
-  void remove(std::int32_t item);
-  bool contains(std::int32_t item) const {
-    return item < static_cast<std::int32_t>(leaf_of_.size()) && leaf_of_[index(item)] != kNull;
-  }
-  /// REQUIRES: in the tree.
-  const Aabb& box_of(std::int32_t item) const { return nodes_[index(leaf_of_[index(item)])].box; }
+  /// Puts `item` in with `box`; returns its leaf. REQUIRES: not in the tree.
+  std::int32_t insert(std::int32_t item, const Aabb& box);
+  /// Takes the item of a leaf out.
+  void remove(std::int32_t leaf);
+  const Aabb& box_of(std::int32_t leaf) const { return nodes_[index(leaf)].box; }
 
   /// Calls visit(item) for every item whose box overlaps `box`.
   template <class Visit>
@@ -73,7 +69,6 @@ class AabbTree {
   void replace_child(std::int32_t parent, std::int32_t old_child, std::int32_t new_child);
 
   std::vector<Node> nodes_;
-  std::vector<std::int32_t> leaf_of_;
   std::vector<std::int32_t> free_;
   std::int32_t root_ = kNull;
 };

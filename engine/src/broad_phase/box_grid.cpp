@@ -20,8 +20,9 @@ void BoxGrid::find_on(const Level& level, const Extent& box) const {
   const double low = (box.y - reach_y) * level.inverse;
   const double right = (box.x + reach_x) * level.inverse;
   const double high = (box.y + reach_y) * level.inverse;
-  const auto look_at = [&](std::int32_t item) {
-    if (overlaps(places_.of(item), box)) found_.push_back(item);
+  const auto look_at = [&](std::int32_t line) {
+    const Place& place = places_.of(line);
+    if (overlaps(place, box)) found_.push_back(place.body);
   };
   // Where it would look at more cells than there are, it looks at all. So it does for NaN.
   if (!((right - left) * (high - low) <= 64 + store_.cells_max())) {
@@ -55,25 +56,28 @@ BoxGrid::Level& BoxGrid::level_for(double half) {
   return best != nullptr ? *best : level_of(own);
 }
 
-void BoxGrid::insert(std::int32_t item, const Aabb& tight, double margin) {
+std::int32_t BoxGrid::insert(std::int32_t body, const Aabb& tight, double margin) {
   const Extent extent(tight);
   const double half = std::max(extent.half_x, extent.half_y) + margin;
-  Place& entering = places_.make(item);
+  const std::int32_t line = places_.make(body);
+  Place& entering = places_.of(line);
   entering.x = extent.x;
   entering.y = extent.y;
   entering.margin = margin;
   entering.half = Extent::padded(half, std::max(std::abs(extent.x), std::abs(extent.y)));
   Level& level = level_for(entering.half);
   ++level.items;
-  store_.insert(item,
+  store_.insert(line,
                 {CellStore::floor_of(entering.x * level.inverse),
                  CellStore::floor_of(entering.y * level.inverse),
                  level.level});
+  return line;
 }
 
-void BoxGrid::remove(std::int32_t item) {
-  Level& level = level_of(store_.cell_of(item).level);
-  store_.remove(item);
+void BoxGrid::remove(std::int32_t line) {
+  Level& level = level_of(store_.cell_of(line).level);
+  store_.remove(line);
+  places_.drop(line);
   if (--level.items > 0) return;
   level = levels_.back();
   levels_.pop_back();

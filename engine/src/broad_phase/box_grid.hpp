@@ -25,19 +25,18 @@ namespace stoss::engine {
 
 class BoxGrid {
  public:
-  /// The places of all that stand here, and of whatever else the caller keeps with them. What the
-  /// grid does not know of a place is the caller's to change.
+  /// The places of all bodies that stand here, and of whatever else the caller keeps with them.
+  /// What the grid does not know of a place is the caller's to change.
   PlaceTable& places() { return places_; }
   const PlaceTable& places() const { return places_; }
 
-  /// Puts `item` in with a box that holds `tight` grown by `margin` on every side. REQUIRES: not in
-  /// the grid; `tight` a square.
-  void insert(std::int32_t item, const Aabb& tight, double margin);
-  /// Its place stays. REQUIRES: in the grid.
-  void remove(std::int32_t item);
-  bool contains(std::int32_t item) const { return store_.contains(item); }
+  /// Puts a body in with a box that holds `tight` grown by `margin` on every side; returns the line
+  /// of its place. REQUIRES: not in the grid; `tight` a square.
+  std::int32_t insert(std::int32_t body, const Aabb& tight, double margin);
+  /// Its place goes, too. REQUIRES: in the grid.
+  void remove(std::int32_t line);
 
-  /// The items whose boxes overlap `box`, or all but do; valid until the next call.
+  /// The bodies whose boxes overlap `box`, or all but do; valid until the next call.
   std::span<const std::int32_t> find(const Aabb& box) const;
 
  private:
@@ -54,7 +53,7 @@ class BoxGrid {
   void find_on(const Level& level, const Extent& box) const;
 
   PlaceTable places_;
-  CellStore store_;
+  CellStore store_;                          // of lines
   std::vector<Level> levels_;                // those that have items
   mutable std::vector<std::int32_t> found_;  // by the last search
 };

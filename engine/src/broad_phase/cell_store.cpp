@@ -14,6 +14,11 @@ void CellStore::insert(std::int32_t item, const Cell& cell) {
   put_in(item, block, in_block(cell.x, cell.y));
 }
 
+void CellStore::keep_for(std::int32_t item, std::int32_t number) {
+  make_line_of(index(item), links_);
+  links_[index(item)].cell = kBelowNone - number;
+}
+
 void CellStore::remove(std::int32_t item) {
   const std::int32_t block = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
   take_out(item);
@@ -111,7 +116,7 @@ std::int32_t* CellStore::collect_hanging_across(std::int32_t item, std::int32_t*
   const Range cells{cell.x - 1, cell.y - 1, cell.x + 1, cell.y + 1};
   for (std::int64_t by = cells.y0 >> kBlockShift; by <= cells.y1 >> kBlockShift; ++by) {
     for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= cells.x1 >> kBlockShift; ++bx) {
-      const std::int32_t block = head.beside[beside(bx - head.key.x, by - head.key.y)];
+      const std::int32_t block = head.beside[beside(bx - head.x, by - head.y)];
       if (block == kNone) continue;
       const std::uint64_t crowded = heads_[index(block)].crowded & bits_of(part_of(cells, bx, by));
       to = collect_hanging(index(block), crowded, item, to);
@@ -125,7 +130,7 @@ std::int32_t CellStore::some_item_of(std::int32_t level) {
   for (int i = 0; i < kFew; ++i) {
     looked_at_ = (looked_at_ + 1) & (table_.size() - 1);
     const std::int32_t block = table_[looked_at_];
-    if (block == kNone || heads_[index(block)].key.level != level) continue;
+    if (block == kNone || heads_[index(block)].level != level) continue;
     for (const std::int32_t item : blocks_[index(block)].items) {
       if (item != kNone) return item;
     }
@@ -136,7 +141,7 @@ std::int32_t CellStore::some_item_of(std::int32_t level) {
 std::uint64_t CellStore::take_looks(std::int32_t level) {
   std::uint64_t looks = 0;
   for (const std::int32_t block : table_) {
-    if (block == kNone || heads_[index(block)].key.level != level) continue;
+    if (block == kNone || heads_[index(block)].level != level) continue;
     looks += std::exchange(heads_[index(block)].looks, 0U);
   }
   return looks;
@@ -146,8 +151,8 @@ std::int32_t CellStore::make_block(const Cell& key) {
   std::int32_t block;
   if (free_blocks_.empty()) {
     block = static_cast<std::int32_t>(blocks_.size());
-    make_room_for_more(blocks_);
-    make_room_for_more(heads_);
+    make_room_for(1, blocks_);
+    make_room_for(1, heads_);
     blocks_.emplace_back();
     heads_.emplace_back();
   } else {
@@ -156,7 +161,7 @@ std::int32_t CellStore::make_block(const Cell& key) {
   }
   blocks_[index(block)].items.fill(kNone);
   const PooledList inherited = heads_[index(block)].note.list;
-  heads_[index(block)] = {key, 0, 0, 0, {}, {0, inherited}};
+  heads_[index(block)] = {key.x, key.y, key.level, 0, 0, {}, 0, {0, inherited}};
   if (2 * ++entries_ > table_.size()) grow_table();
   table_[entry_of(key)] = block;
   link(block, block);
@@ -166,12 +171,12 @@ std::int32_t CellStore::make_block(const Cell& key) {
 void CellStore::drop_block(std::int32_t block) {
   link(block, kNone);
   free_blocks_.push_back(block);
-  drop_entry(entry_of(heads_[index(block)].key));
+  drop_entry(entry_of(heads_[index(block)].key()));
 }
 
 // Makes a block known to those around it as `as`, and those to it.
 void CellStore::link(std::int32_t block, std::int32_t as) {
-  const Cell key = heads_[index(block)].key;
+  const Cell key = heads_[index(block)].key();
   for (std::int64_t dy = -1; dy <= 1; ++dy) {
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
       const std::int32_t other = table_[entry_of({key.x + dx, key.y + dy, key.level})];
@@ -186,7 +191,7 @@ void CellStore::grow_table() {
       std::exchange(table_, std::vector<std::int32_t>(2 * table_.size(), kNone));
   --table_shift_;
   for (const std::int32_t block : old) {
-    if (block != kNone) table_[entry_of(heads_[index(block)].key)] = block;
+    if (block != kNone) table_[entry_of(heads_[index(block)].key())] = block;
   }
 }
 
@@ -195,8 +200,7 @@ void CellStore::drop_entry(std::size_t hole) {
   --entries_;
   const std::size_t mask = table_.size() - 1;
   for (std::size_t i = (hole + 1) & mask; table_[i] != kNone; i = (i + 1) & mask) {
-    const Cell& key = heads_[index(table_[i])].key;
-    const auto home = static_cast<std::size_t>(hash_of(key) >> table_shift_);
+    const std::size_t home = hash_of(heads_[index(table_[i])].key()) >> table_shift_;
     if (((i - home) & mask) < ((i - hole) & mask)) continue;
     table_[hole] = table_[i];
     hole = i;

@@ -62,12 +62,22 @@ class CellStore {
            static_cast<std::size_t>(y * kBlockSide + x));
   }
   bool contains(std::int32_t item) const {
+    return index(item) < links_.size() && links_[index(item)].cell >= 0;
+  }
+  /// The same of an item that has been in one, or for which something has been kept.
+  bool contains_known(std::int32_t item) const { return links_[index(item)].cell >= 0; }
+  /// For an item in no cell its owner may keep a number, 0 or more, until it comes in; kNone: none.
+  void keep_for(std::int32_t item, std::int32_t number);
+  /// Is it in a cell, or is something kept for it?
+  bool knows(std::int32_t item) const {
     return index(item) < links_.size() && links_[index(item)].cell != kNone;
   }
+  /// REQUIRES: known, and in no cell.
+  std::int32_t kept_for(std::int32_t item) const { return kBelowNone - links_[index(item)].cell; }
   /// REQUIRES: in a cell.
   Cell cell_of(std::int32_t item) const {
     const std::size_t at = index(links_[index(item)].cell);
-    const Cell& block = heads_[at / kBlockCells].key;
+    const Head& block = heads_[at / kBlockCells];
     const auto in_block = static_cast<std::int64_t>(at % kBlockCells);
     return {block.x * kBlockSide + in_block % kBlockSide,
             block.y * kBlockSide + in_block / kBlockSide,
@@ -102,7 +112,7 @@ class CellStore {
     const std::int64_t by1 = cells.y1 >> kBlockShift, bx1 = cells.x1 >> kBlockShift;
     for (std::int64_t by = cells.y0 >> kBlockShift; by <= by1; ++by) {
       for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= bx1; ++bx) {
-        const std::int32_t block = head.beside[beside(bx - head.key.x, by - head.key.y)];
+        const std::int32_t block = head.beside[beside(bx - head.x, by - head.y)];
         if (block != kNone) to = collect_in(index(block), part_of(cells, bx, by), item, to);
       }
     }
@@ -169,7 +179,7 @@ class CellStore {
   template <class Visit>
   void for_each(std::int32_t level, const Visit& visit) const {
     for (const std::int32_t block : table_) {
-      if (block == kNone || heads_[index(block)].key.level != level) continue;
+      if (block == kNone || heads_[index(block)].level != level) continue;
       for_each_in(block, {0, 0, kBlockSide - 1, kBlockSide - 1}, visit);
     }
   }
@@ -186,7 +196,7 @@ class CellStore {
   /// Of the block where the item is. REQUIRES: in a cell.
   NotedBlock noted_block_of(std::int32_t item) {
     Head& head = heads_[index(links_[index(item)].cell) / kBlockCells];
-    return {head.key, &head.note};
+    return {head.key(), &head.note};
   }
   const Note& note_of_block_of(std::int32_t item) const {
     return heads_[index(links_[index(item)].cell) / kBlockCells].note;
@@ -212,14 +222,20 @@ class CellStore {
   }
 
  private:
-  struct alignas(64) Head {
-    Cell key;                   ///< the block's numbers along the axes, and its level
-    std::uint64_t crowded = 0;  ///< a bit for each cell with items behind its second
-    std::int32_t items = 0;
+  /// In two lines; what most searches read is in one.
+  struct alignas(32) Head {
+    std::int64_t x = 0;  ///< the block's numbers along the axes
+    std::int64_t y = 0;
+    std::int32_t level = 0;
     mutable std::uint32_t looks = 0;
+    std::uint64_t crowded = 0;           ///< a bit for each cell with items behind its second
     std::array<std::int32_t, 9> beside;  ///< the blocks around it, itself in the middle
+    std::int32_t items = 0;
     Note note;
+
+    Cell key() const { return {x, y, level}; }
   };
+  static_assert(sizeof(Head) == 96);
   static std::size_t beside(std::int64_t dx, std::int64_t dy) {
     return static_cast<std::size_t>(3 * dy + dx + 4);
   }
@@ -227,10 +243,11 @@ class CellStore {
     std::array<std::int32_t, 2 * kBlockCells> items;
   };
   struct Link {
-    std::int32_t cell = kNone;
+    std::int32_t cell = kNone;  ///< or kBelowNone less what is kept for the item
     std::int32_t next = kNone;  ///< of the second in a cell, and of those behind it
   };
 
+  static constexpr std::int32_t kBelowNone = 2 * kNone;
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   static std::uint64_t hash_of(const Cell& key) {
     std::uint64_t h = static_cast<std::uint64_t>(key.x) * 0x9e3779b97f4a7c15U;
@@ -355,7 +372,7 @@ class CellStore {
   /// The place of the key in the table, or where it would be.
   std::size_t entry_of(const Cell& key) const {
     for (std::size_t i = hash_of(key) >> table_shift_;; i = (i + 1) & (table_.size() - 1)) {
-      if (table_[i] == kNone || heads_[index(table_[i])].key == key) return i;
+      if (table_[i] == kNone || heads_[index(table_[i])].key() == key) return i;
     }
   }
   /// The block of a key, made if need be.

@@ -56,6 +56,11 @@ class DiskCells {
   /// So many disks are to come.
   void make_room(std::size_t disks) { store_.make_room(disks); }
   bool contains(std::int32_t disk) const { return store_.contains(disk); }
+  bool contains_known(std::int32_t disk) const { return store_.contains_known(disk); }
+  /// As the store of cells does, keeps a number for a body that is not contained.
+  void keep_for(std::int32_t body, std::int32_t number) { store_.keep_for(body, number); }
+  bool knows(std::int32_t body) const { return store_.knows(body); }
+  std::int32_t kept_for(std::int32_t body) const { return store_.kept_for(body); }
   /// REQUIRES: contained.
   Cell cell_of(std::int32_t disk) const { return store_.cell_of(disk); }
 

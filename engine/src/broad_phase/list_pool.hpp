@@ -22,7 +22,7 @@ struct PooledList {
 
 class ListPool {
  public:
-  std::span<const std::int32_t> items(PooledList list) const {
+  [[gnu::always_inline]] std::span<const std::int32_t> items(PooledList list) const {
     const std::int32_t* const head = memory_.data() + list.head;
     return {head + 1, Word(*head).size()};
   }

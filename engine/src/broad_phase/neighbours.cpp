@@ -1,35 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "broad_phase/neighbours.hpp"
 
-#include "broad_phase/grow.hpp"
-
 #include <algorithm>
 
 namespace stoss::engine {
 
-ListPool::Word ListPool::grow(PooledList& list, std::size_t wanted) {
-  const std::uint32_t held = size(list);
-  std::uint32_t room_class = Word(memory_[list.head]).room_class();
-  while (Word::of_class(room_class).room() < wanted) ++room_class;
-  const Word word = Word::of_class(room_class);
-  PooledList larger{free_[room_class]};
-  if (larger.head != 0) {
-    free_[room_class] = static_cast<std::uint32_t>(memory_[larger.head + 1]);
-  } else {
-    larger.head = static_cast<std::uint32_t>(memory_.size());
-    make_line_of(memory_.size() + word.room(), memory_);
-  }
-  std::copy_n(memory_.data() + list.head + 1, held, memory_.data() + larger.head + 1);
-  memory_[larger.head] = word.with_size(held);
-  release(list);
-  list = larger;
-  return Word(memory_[list.head]);
-}
-
 double Neighbours::next_margin(Slot slot) const {
   constexpr double kGrow = 1.6;
   constexpr double kShrink = 0.8;
-  if (cells_.contains(slot)) return kGrow * cells_.cage_of(slot).half;
+  if (cells_.contains_known(slot)) return kGrow * cells_.cage_of(slot).half;
   const Place& here = place(slot);
   const double search = work_of_search(slot);
   const double spent = spent_on_margin(here);
@@ -61,33 +40,38 @@ void Neighbours::put_in(Slot slot,
 }
 
 void Neighbours::stand_in_tree(Slot slot, const Aabb& tight, const Glance& here, double margin) {
-  Place& entering = grid_.places().make(slot);
+  const std::int32_t line = grid_.places().make(slot);
+  cells_.keep_for(slot, line);
+  Place& entering = grid_.places().of(line);
   entering.x = here.x + here.x_low;
   entering.y = here.y + here.y_low;
   entering.margin = margin;
   entering.half = Extent::padded(margin, std::max(std::abs(entering.x), std::abs(entering.y)));
   entering.set_low((here.x - entering.x) + here.x_low, (here.y - entering.y) + here.y_low);
-  tree_.insert(slot, grown(tight, margin));
+  entering.leaf = tree_.insert(slot, grown(tight, margin));
 }
 
 void Neighbours::stand_in_grid(Slot slot, const Aabb& tight, const Glance& here, double margin) {
-  grid_.insert(slot, tight, margin);
+  cells_.keep_for(slot, grid_.insert(slot, tight, margin));
   Place& entered = place(slot);
   entered.set_low((here.x - entered.x) + here.x_low, (here.y - entered.y) + here.y_low);
 }
 
 void Neighbours::take_out(Slot slot) {
-  if (cells_.contains(slot)) {
+  if (cells_.contains_known(slot)) {
     cells_.leave(slot);
     return;
   }
   cells_.note_bystander(box_of(slot));
-  if (grid_.contains(slot)) {
-    grid_.remove(slot);
+  const std::int32_t line = cells_.kept_for(slot);
+  const std::int32_t leaf = place(slot).leaf;
+  if (leaf == kNone) {
+    grid_.remove(line);
   } else {
-    tree_.remove(slot);
+    tree_.remove(leaf);
+    grid_.places().drop(line);
   }
-  grid_.places().drop(slot);
+  cells_.keep_for(slot, kNone);
 }
 
 // Makes found_ the neighbours of `slot` in place of before_, in all lists. What has not changed is

@@ -91,7 +91,7 @@ class Neighbours {
     next_gathered_ = 1 - next_gathered_;
     const auto list = list_of(slot);
     Slot* to = std::copy(list.begin(), list.end(), room_in(oldest, list.size()));
-    if (cells_.contains(slot)) to = cells_.collect_around(slot, to);
+    if (cells_.contains_known(slot)) to = cells_.collect_around(slot, to);
     oldest.renewals = renewals_;
     return ended(oldest, slot, to);
   }
@@ -120,7 +120,7 @@ class Neighbours {
   }
   /// Asks for what leeway() will read, and of() of the place.
   void prefetch_place(Slot slot) const {
-    if (cells_.contains(slot)) {
+    if (cells_.contains_known(slot)) {
       cells_.prefetch_block(slot);
     } else {
       prefetch(&place(slot));
@@ -128,7 +128,7 @@ class Neighbours {
   }
   /// Asks for the list itself; its place should have come.
   void prefetch_list(Slot slot) const {
-    if (cells_.contains(slot)) {
+    if (cells_.contains_known(slot)) {
       cells_.prefetch_around(slot);
     } else {
       prefetch(list_of(slot).data());
@@ -136,7 +136,7 @@ class Neighbours {
   }
   /// And for what newcomers() will read, of a disk that is about to cross.
   void prefetch_beyond(Slot slot) const {
-    if (cells_.contains(slot)) cells_.prefetch_beyond(slot);
+    if (cells_.contains_known(slot)) cells_.prefetch_beyond(slot);
   }
   /// A square of half side `margin`, m, that the body's place may leave before its box is renewed.
   struct Leeway {
@@ -146,7 +146,7 @@ class Neighbours {
   /// Around where the body was when its box was made (in a periodic world, its image in the box),
   /// or around the middle of its cell.
   Leeway leeway(Slot slot) const {
-    if (cells_.contains(slot)) {
+    if (cells_.contains_known(slot)) {
       const DiskCells::Cage cage = cells_.cage_of(slot);
       return {{cage.x, cage.y, 0, 0}, cage.half};
     }
@@ -154,8 +154,8 @@ class Neighbours {
     return {{here.x, here.y, here.x_low(), here.y_low()}, here.margin};
   }
   Aabb box_of(Slot slot) const {
-    if (cells_.contains(slot)) return cells_.box_of(slot);
-    return standing_[index(slot)].role == Role::Wall ? tree_.box_of(slot) : place(slot).box();
+    if (cells_.contains_known(slot)) return cells_.box_of(slot);
+    return box_of_place(place(slot));
   }
 
   /// Brings a disk that has come to the side of its cage, at (x, y) [m] by now, to the next cell.
@@ -163,7 +163,7 @@ class Neighbours {
   template <class Interacts>
   bool cross(Slot slot, double x, double y, const Interacts& interacts) {
     Standing& standing = standing_[index(slot)];
-    if (!cells_.contains(slot) || standing.flown >= kFar) return false;
+    if (!cells_.contains_known(slot) || standing.flown >= kFar) return false;
     const auto step = cells_.move(slot, x, y);
     // Where it stands still it is too fast for cells: it would have crossed at this very instant.
     if (!step || (step->dx == 0 && step->dy == 0)) return false;
@@ -197,7 +197,7 @@ class Neighbours {
                           (!was_known || suits_cells(slot, margin.wanted));
     if (was_known) take_out(slot);
     put_in(slot, role, tight, here, margin, in_cells);
-    if (cells_.contains(slot)) {
+    if (cells_.contains_known(slot)) {
       find_from_cell(slot, interacts);
     } else {
       find(slot, box_of(slot), interacts, copies);
@@ -220,7 +220,7 @@ class Neighbours {
   void note_event(Slot slot) { standing_[index(slot)].flown = 0; }
   /// Notes predictions made for a body since its last renewal.
   void note_work(Slot slot) {
-    if (cells_.contains(slot)) return;
+    if (cells_.contains_known(slot)) return;
     Place& here = place(slot);
     here.work = std::min(here.work + pool_.size(standing_[index(slot)].list), kWorkMax);
   }
@@ -228,7 +228,8 @@ class Neighbours {
   /// Has a body without a cell so many neighbours because of its margin that its box had better be
   /// renewed at once?
   bool is_overworked(Slot slot) const {
-    return !cells_.contains(slot) && spent_on_margin(place(slot)) > kTooMuch * work_of_search(slot);
+    return !cells_.contains_known(slot) &&
+           spent_on_margin(place(slot)) > kTooMuch * work_of_search(slot);
   }
   /// The margin to renew with, m, so that searching and predicting cost about the same.
   double next_margin(Slot slot) const;
@@ -257,6 +258,7 @@ class Neighbours {
 
   /// Cells; chosen: a disk that flies farther without an event is in nobody's way.
   static constexpr std::uint8_t kFar = 24;
+  static constexpr std::int32_t kNone = CellStore::kNone;
   static constexpr std::uint32_t kWorkMax = 1U << 30;
   /// Of the work of a search: as much for a margin is too much.
   static constexpr double kTooMuch = 2;
@@ -281,11 +283,11 @@ class Neighbours {
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   }
 
-  std::span<const Slot> list_of(Slot slot) const {
+  [[gnu::always_inline]] std::span<const Slot> list_of(Slot slot) const {
     return pool_.items(standing_[index(slot)].list);
   }
   std::optional<DiskCells::Cell> cell_of(Slot slot) const {
-    if (!cells_.contains(slot)) return std::nullopt;
+    if (!cells_.contains_known(slot)) return std::nullopt;
     return cells_.cell_of(slot);
   }
   /// Neighbours in one piece of memory.
@@ -313,7 +315,7 @@ class Neighbours {
   // often the farther it flies; until it has had one again, or too many to look at.
   bool suits_cells(Slot slot, double wanted) {
     const Standing& standing = standing_[index(slot)];
-    if (cells_.contains(slot)) return standing.flown < kFar;
+    if (cells_.contains_known(slot)) return standing.flown < kFar;
     return standing.flown == 0 || wanted < place(slot).margin;
   }
   void put_in(Slot slot,
@@ -324,8 +326,13 @@ class Neighbours {
               bool in_cells);
   void stand_in_tree(Slot slot, const Aabb& tight, const Glance& here, double margin);
   void stand_in_grid(Slot slot, const Aabb& tight, const Glance& here, double margin);
-  Place& place(Slot slot) { return grid_.places().of(slot); }
-  const Place& place(Slot slot) const { return grid_.places().of(slot); }
+  /// Of a body in no cell.
+  Place& place(Slot slot) { return grid_.places().of(cells_.kept_for(slot)); }
+  const Place& place(Slot slot) const { return grid_.places().of(cells_.kept_for(slot)); }
+
+  Aabb box_of_place(const Place& place) const {
+    return place.leaf != kNone ? tree_.box_of(place.leaf) : place.box();
+  }
 
   // Whom a disk in a cell has as neighbours, but for those whom it knows from the cells: found_.
   template <class Interacts>
@@ -338,7 +345,7 @@ class Neighbours {
     if (!near) return find(slot, box, interacts, NoCopies{});
     found_.clear();
     for (const Slot other : *near) {
-      if (overlaps(box_of(other), box) && (keeps_list(other) || interacts(other))) {
+      if (overlaps(box_of_place(place(other)), box) && (keeps_list(other) || interacts(other))) {
         found_.push_back(other);
       }
     }
@@ -370,7 +377,7 @@ class Neighbours {
   template <class Copies>
   bool remember_neighbours(Slot slot, const Copies& copies) {
     before_.clear();
-    if (!cells_.contains(slot) && !grid_.contains(slot) && !tree_.contains(slot)) return false;
+    if (!cells_.knows(slot)) return false;
     if (keeps_list(slot)) {
       before_.assign(list_of(slot).begin(), list_of(slot).end());
       return true;
@@ -390,7 +397,7 @@ class Neighbours {
   void replace_neighbours(Slot slot);
 
   BoxGrid grid_;     // of disks; and the places of walls
-  DiskCells cells_;  // of disks that are not in the grid
+  DiskCells cells_;  // of disks that are not in the grid; for others the lines of their places
   AabbTree tree_;
   std::vector<Standing> standing_;
   ListPool pool_;             // of the lists

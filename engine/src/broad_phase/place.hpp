@@ -18,6 +18,8 @@ struct alignas(64) Place {
   float low_x = 0;    ///< of `half`: from (x, y) to where the body itself was
   float low_y = 0;    ///< likewise; not in m, for those may be beyond the range of a float
   std::uint32_t work = 0;  ///< predictions looked at since the last renewal, at most
+  std::int32_t body = -1;  ///< whose place it is
+  std::int32_t leaf = -1;  ///< of a wall, in the tree
 
   double x_low() const { return static_cast<double>(low_x) * half; }  ///< m
   double y_low() const { return static_cast<double>(low_y) * half; }  ///< m
