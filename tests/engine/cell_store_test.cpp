@@ -110,6 +110,7 @@ TEST(CellStore, FindsWhatStandsInCellsUnderRandomWork) {
       cells[item] = random_cell(random);
       store.insert(item, cells[item]);
     }
+    if (random.one_in(100)) store.pack([](PooledList&) {});
     ASSERT_NO_FATAL_FAILURE(expect_found_beside(store, cells, item));
     Range near = around(cells[item], static_cast<std::int64_t>(random.below(3)));
     near.x0 += static_cast<std::int64_t>(random.below(2));
@@ -121,6 +122,49 @@ TEST(CellStore, FindsWhatStandsInCellsUnderRandomWork) {
     constexpr std::int64_t kAnywhere = std::int64_t{1} << 60;
     ASSERT_EQ(sorted(visited), items_in(cells, around({}, kAnywhere), level, CellStore::kNone));
   }
+}
+
+// Its lists go with a block that is gone; what is kept for the others stays.
+TEST(CellStore, PackedKeepsTheNotesOfBlocksInUse) {
+  CellStore store;
+  constexpr std::int32_t kFar = 200;
+  for (std::int32_t item = 0; item < kFar; ++item) {
+    store.insert(item, {CellStore::kBlockSide * item, 0, 0});
+    *store.noted_block_of(item).note = {1, {static_cast<std::uint32_t>(item)}};
+  }
+  EXPECT_FALSE(store.is_mostly_free());
+  for (std::int32_t item = 0; item < kFar; ++item) {
+    if (item % 10 != 0) store.remove(item);
+  }
+  EXPECT_TRUE(store.is_mostly_free());
+  int dropped = 0;
+  store.pack([&](const PooledList& list) {
+    ++dropped;
+    EXPECT_NE(list.head % 10, 0U);
+  });
+  EXPECT_EQ(dropped, kFar - kFar / 10);
+  EXPECT_FALSE(store.is_mostly_free());
+  for (std::int32_t item = 0; item < kFar; item += 10) {
+    EXPECT_EQ(store.cell_of(item), (Cell{CellStore::kBlockSide * item, 0, 0}));
+    EXPECT_EQ(store.note_of_block_of(item).as_of, 1U);
+    EXPECT_EQ(store.note_of_block_of(item).list.head, static_cast<std::uint32_t>(item));
+  }
+}
+
+TEST(CellStore, KeepsANumberForWhatIsInNoCell) {
+  CellStore store;
+  EXPECT_FALSE(store.knows(7));
+  store.keep_for(7, 0);
+  store.keep_for(3, 1'000'000);
+  EXPECT_TRUE(store.knows(7));
+  EXPECT_FALSE(store.knows(5));
+  EXPECT_FALSE(store.contains(7));
+  EXPECT_EQ(store.kept_for(7), 0);
+  EXPECT_EQ(store.kept_for(3), 1'000'000);
+  store.insert(7, {0, 0, 0});
+  EXPECT_TRUE(store.contains(7));
+  store.keep_for(3, CellStore::kNone);
+  EXPECT_FALSE(store.knows(3));
 }
 
 TEST(CellStore, CountsLooksByLevel) {

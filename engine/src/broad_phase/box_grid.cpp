@@ -77,6 +77,7 @@ std::int32_t BoxGrid::insert(std::int32_t body, const Aabb& tight, double margin
 void BoxGrid::remove(std::int32_t line) {
   Level& level = level_of(store_.cell_of(line).level);
   store_.remove(line);
+  if (store_.is_mostly_free()) store_.pack([](PooledList&) {});
   places_.drop(line);
   if (--level.items > 0) return;
   level = levels_.back();

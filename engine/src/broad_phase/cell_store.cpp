@@ -3,12 +3,15 @@
 
 #include "broad_phase/grow.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace stoss::engine {
 
 void CellStore::insert(std::int32_t item, const Cell& cell) {
   make_line_of(index(item), links_);
+  ++items_;
   const std::int32_t block = block_for({cell.x >> kBlockShift, cell.y >> kBlockShift, cell.level});
   items_max_ = std::max(items_max_, ++heads_[index(block)].items);
   put_in(item, block, in_block(cell.x, cell.y));
@@ -22,6 +25,7 @@ void CellStore::keep_for(std::int32_t item, std::int32_t number) {
 void CellStore::remove(std::int32_t item) {
   const std::int32_t block = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
   take_out(item);
+  --items_;
   if (--heads_[index(block)].items == 0) drop_block(block);
 }
 
@@ -151,8 +155,7 @@ std::int32_t CellStore::make_block(const Cell& key) {
   std::int32_t block;
   if (free_blocks_.empty()) {
     block = static_cast<std::int32_t>(blocks_.size());
-    make_room_for(1, blocks_);
-    make_room_for(1, heads_);
+    if (blocks_.size() == blocks_.capacity()) grow_blocks();
     blocks_.emplace_back();
     heads_.emplace_back();
   } else {
@@ -162,7 +165,7 @@ std::int32_t CellStore::make_block(const Cell& key) {
   blocks_[index(block)].items.fill(kNone);
   const PooledList inherited = heads_[index(block)].note.list;
   heads_[index(block)] = {key.x, key.y, key.level, 0, 0, {}, 0, {0, inherited}};
-  if (2 * ++entries_ > table_.size()) grow_table();
+  if (2 * ++entries_ > table_.size()) resize_table(2 * table_.size());
   table_[entry_of(key)] = block;
   link(block, block);
   return block;
@@ -186,12 +189,63 @@ void CellStore::link(std::int32_t block, std::int32_t as) {
   }
 }
 
-void CellStore::grow_table() {
+// To a power of two.
+void CellStore::resize_table(std::size_t size) {
   const std::vector<std::int32_t> old =
-      std::exchange(table_, std::vector<std::int32_t>(2 * table_.size(), kNone));
-  --table_shift_;
+      std::exchange(table_, std::vector<std::int32_t>(size, kNone));
+  table_shift_ = 64 - std::countr_zero(size);
   for (const std::int32_t block : old) {
     if (block != kNone) table_[entry_of(heads_[index(block)].key())] = block;
+  }
+}
+
+// By an eighth; where some of the items that were announced are yet to come, but no more than are
+// here, to as many blocks as there will be if those come to stand as these do.
+void CellStore::grow_blocks() {
+  constexpr double kStep = 1.125;
+  constexpr double kRoom = 1.04;  // they spread into blocks beside those
+  constexpr std::size_t kFew = 8;
+  const double yet = static_cast<double>(items_to_be_) / static_cast<double>(items_);
+  const double by = yet < 2 ? std::max(kStep, kRoom * yet) : kStep;
+  blocks_.reserve(static_cast<std::size_t>(by * static_cast<double>(blocks_.size())) + kFew);
+  heads_.reserve(blocks_.capacity());
+}
+
+// Moves all blocks together, each to its place among those that are in use.
+void CellStore::pack_blocks() {
+  std::vector<std::int32_t> numbers(blocks_.size(), kNone);
+  std::size_t in_use = 0;
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    if (heads_[block].items == 0) continue;
+    numbers[block] = static_cast<std::int32_t>(in_use);
+    blocks_[in_use] = blocks_[block];
+    heads_[in_use] = heads_[block];
+    ++in_use;
+  }
+  blocks_.resize(in_use);
+  blocks_.shrink_to_fit();
+  heads_.resize(in_use);
+  heads_.shrink_to_fit();
+  free_blocks_ = std::vector<std::int32_t>();
+  renumber(numbers);
+}
+
+// Tells everybody the new numbers of the blocks.
+void CellStore::renumber(const std::vector<std::int32_t>& numbers) {
+  for (std::int32_t& block : table_) {
+    if (block != kNone) block = numbers[index(block)];
+  }
+  resize_table(std::max(kTableLeast, std::bit_ceil(2 * entries_)));
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    for (std::int32_t& other : heads_[block].beside) {
+      if (other != kNone) other = numbers[index(other)];
+    }
+    const auto number = static_cast<std::int32_t>(block);
+    for_each_in(number, {0, 0, kBlockSide - 1, kBlockSide - 1}, [&](std::int32_t item) {
+      constexpr auto kCells = static_cast<std::int32_t>(kBlockCells);
+      std::int32_t& cell = links_[index(item)].cell;
+      cell = number * kCells + cell % kCells;
+    });
   }
 }
 

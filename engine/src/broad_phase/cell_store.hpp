@@ -44,7 +44,10 @@ class CellStore {
   };
 
   /// So many items are to come.
-  void make_room(std::size_t items) { links_.reserve(items); }
+  void make_room(std::size_t items) {
+    links_.reserve(items);
+    items_to_be_ = items;
+  }
   /// REQUIRES: in no cell.
   void insert(std::int32_t item, const Cell& cell);
   /// REQUIRES: in a cell.
@@ -182,6 +185,18 @@ class CellStore {
       if (block == kNone || heads_[index(block)].level != level) continue;
       for_each_in(block, {0, 0, kBlockSide - 1, kBlockSide - 1}, visit);
     }
+  }
+
+  /// Is most of the memory for blocks free, and more than a little?
+  bool is_mostly_free() const {
+    constexpr std::size_t kFew = 64;
+    return free_blocks_.size() > kFew && 2 * free_blocks_.size() > blocks_.size();
+  }
+  /// Gives it back. drop(list) is called for what would have been inherited.
+  template <class Drop>
+  void pack(const Drop& drop) {
+    for (const std::int32_t block : free_blocks_) drop(heads_[index(block)].note.list);
+    pack_blocks();
   }
 
   /// What the owner of the cells keeps for a block of them; made anew with the block.
@@ -396,18 +411,24 @@ class CellStore {
   void drop_block(std::int32_t block);
   void link(std::int32_t block, std::int32_t as);
   void drop_entry(std::size_t hole);
-  void grow_table();
+  void resize_table(std::size_t size);
+  void grow_blocks();
+  void pack_blocks();
+  void renumber(const std::vector<std::int32_t>& numbers);
 
   std::vector<Link> links_;  // of the items
   std::vector<Block> blocks_;
   std::vector<Head> heads_;  // of the blocks
   std::vector<std::int32_t> free_blocks_;
   /// Of blocks, by their keys; open addressing. A block beside another is known without it.
-  std::vector<std::int32_t> table_ = std::vector<std::int32_t>(64, kNone);
+  static constexpr std::size_t kTableLeast = 64;
+  std::vector<std::int32_t> table_ = std::vector<std::int32_t>(kTableLeast, kNone);
   std::size_t entries_ = 0;
-  std::int32_t items_max_ = 0;  // that a block has ever held
-  std::size_t looked_at_ = 0;   // of the table, by some_item_of()
-  int table_shift_ = 58;        // of a hash, for a place in the table
+  std::size_t items_ = 0;
+  std::size_t items_to_be_ = 0;  // as many have been announced
+  std::int32_t items_max_ = 0;   // that a block has ever held
+  std::size_t looked_at_ = 0;    // of the table, by some_item_of()
+  int table_shift_ = 58;         // of a hash, for a place in the table
 };
 
 }  // namespace stoss::engine

@@ -59,6 +59,7 @@ Aabb DiskCells::box_of(std::int32_t disk) const {
 void DiskCells::leave(std::int32_t disk) {
   const std::int32_t id = store_.cell_of(disk).level;
   store_.remove(disk);
+  if (store_.is_mostly_free()) store_.pack([this](PooledList& list) { lists_.release(list); });
   if (--level_of(id).items > 0) return;
   std::erase_if(levels_, [id](const Level& level) { return level.id == id; });
 }

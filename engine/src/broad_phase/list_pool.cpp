@@ -15,6 +15,7 @@ ListPool::Word ListPool::grow(PooledList& list, std::size_t wanted) {
   PooledList larger{free_[room_class]};
   if (larger.head != 0) {
     free_[room_class] = static_cast<std::uint32_t>(memory_[larger.head + 1]);
+    free_words_ -= word.room() + 1;
   } else {
     larger.head = static_cast<std::uint32_t>(memory_.size());
     make_line_of(memory_.size() + word.room(), memory_);
@@ -24,6 +25,13 @@ ListPool::Word ListPool::grow(PooledList& list, std::size_t wanted) {
   release(list);
   list = larger;
   return Word(memory_[list.head]);
+}
+
+void ListPool::move_in(PooledList& list, const ListPool& from) {
+  if (list.head == 0) return;
+  const auto first = from.memory_.begin() + list.head;
+  list.head = static_cast<std::uint32_t>(memory_.size());
+  memory_.insert(memory_.end(), first, first + 1 + Word(*first).room());
 }
 
 }  // namespace stoss::engine

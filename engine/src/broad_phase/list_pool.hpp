@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace stoss::engine {
@@ -61,7 +62,21 @@ class ListPool {
     std::uint32_t& first_free = free_[Word(memory_[list.head]).room_class()];
     memory_[list.head + 1] = static_cast<std::int32_t>(first_free);
     first_free = list.head;
+    free_words_ += Word(memory_[list.head]).room() + 1;
     list = PooledList{};
+  }
+
+  /// Is most of the memory free, and more than so many words?
+  bool is_mostly_free(std::size_t words) const {
+    return free_words_ > words && 2 * free_words_ > memory_.size();
+  }
+  /// Gives it back. for_each_list(visit) calls visit(list) for all lists of the pool.
+  template <class ForEachList>
+  void pack(const ForEachList& for_each_list) {
+    ListPool packed;
+    packed.memory_.reserve(memory_.size() - free_words_);
+    for_each_list([&](PooledList& list) { packed.move_in(list, *this); });
+    *this = std::move(packed);
   }
 
  private:
@@ -87,9 +102,11 @@ class ListPool {
   };
 
   Word grow(PooledList& list, std::size_t wanted);
+  void move_in(PooledList& list, const ListPool& from);
 
   static constexpr std::size_t kLeastPiece = 8;
   std::vector<std::int32_t> memory_ = std::vector<std::int32_t>(kLeastPiece);
+  std::size_t free_words_ = 0;
   std::array<std::uint32_t, 32> free_{};  // by class: a piece whose second word tells the next
 };
 

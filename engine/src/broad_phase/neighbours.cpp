@@ -94,6 +94,12 @@ void Neighbours::replace_neighbours(Slot slot) {
   if (keeps) pool_.assign(standing_[index(slot)].list, found_);
 }
 
+void Neighbours::pack_lists() {
+  pool_.pack([this](const auto& visit) {
+    for (Standing& standing : standing_) visit(standing.list);
+  });
+}
+
 // Takes a body whose box is out from all lists.
 void Neighbours::forget(Slot slot) {
   found_.clear();

@@ -204,6 +204,7 @@ class Neighbours {
     }
     replace_neighbours(slot);
     ++renewals_;
+    if (pool_.is_mostly_free(standing_.size())) pack_lists();
   }
 
   /// A disk whose box had better be renewed now, to spare others work; -1: none.
@@ -214,6 +215,7 @@ class Neighbours {
     if (remember_neighbours(slot, copies)) take_out(slot);
     forget(slot);
     ++renewals_;
+    if (pool_.is_mostly_free(standing_.size())) pack_lists();
   }
 
   /// Notes that a body's motion has changed.
@@ -395,6 +397,7 @@ class Neighbours {
   void take_out(Slot slot);
   void forget(Slot slot);
   void replace_neighbours(Slot slot);
+  void pack_lists();
 
   BoxGrid grid_;     // of disks; and the places of walls
   DiskCells cells_;  // of disks that are not in the grid; for others the lines of their places

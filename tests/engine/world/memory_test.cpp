@@ -44,8 +44,8 @@ namespace {
 constexpr std::size_t kColumns = 150;
 constexpr std::size_t kDisks = kColumns * kColumns;
 
-World disks_in_rows() {
-  const double pitch = 1.5;
+/// Disks of diameter 1 m with walls around them.
+World disks_in_rows(double pitch) {
   std::vector<DiskSpec> disks(kDisks);
   test::Random random(5);
   for (std::size_t i = 0; i < kDisks; ++i) {
@@ -54,8 +54,13 @@ World disks_in_rows() {
     disks[i].velocity = {random.uniform(-1, 1), random.uniform(-1, 1)};
     disks[i].radius = 0.5;
   }
+  const double low = -pitch, high = pitch * static_cast<double>(kColumns);
+  const std::vector<WallSpec> walls{{.start = {low, low}, .end = {high, low}},
+                                    {.start = {high, low}, .end = {high, high}},
+                                    {.start = {high, high}, .end = {low, high}},
+                                    {.start = {low, high}, .end = {low, low}}};
   World world;
-  test::must_spawn(world, disks);
+  test::must_spawn(world, disks, walls);
   return world;
 }
 
@@ -63,15 +68,24 @@ std::size_t bytes_a_body(std::size_t before) { return (bytes_in_use - before) / 
 
 TEST(Memory, OfABodyIsBounded) {
   const std::size_t before = bytes_in_use;
-  World world = disks_in_rows();
+  World world = disks_in_rows(1.5);
   EXPECT_GT(bytes_a_body(before), sizeof(DiskSpec));  // or nothing is counted
-  EXPECT_LT(bytes_a_body(before), 352U);
+  EXPECT_LT(bytes_a_body(before), 320U);
   EXPECT_TRUE(world.advance_to({1000, 0}, nullptr, 4 * kDisks).ok());
-  EXPECT_LT(bytes_a_body(before), 368U);
+  EXPECT_LT(bytes_a_body(before), 336U);
+}
+
+// Far apart almost every disk stands in a block of cells by itself, until those are too small.
+TEST(Memory, OfCellsThatWereTooSmallIsGivenBack) {
+  const std::size_t before = bytes_in_use;
+  World world = disks_in_rows(6);
+  EXPECT_GT(bytes_a_body(before), 500U);
+  EXPECT_TRUE(world.advance_to({1000, 0}, nullptr, 16 * kDisks).ok());
+  EXPECT_LT(bytes_a_body(before), 352U);
 }
 
 TEST(Memory, OfTheHashIsTakenWhenItIsAskedFor) {
-  World world = disks_in_rows();
+  World world = disks_in_rows(1.5);
   EXPECT_TRUE(world.advance_to({1000, 0}, nullptr, 4 * kDisks).ok());
   const std::size_t before = bytes_in_use;
   static_cast<void>(world.state_hash());
