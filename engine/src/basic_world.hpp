@@ -153,6 +153,7 @@ class BasicWorld final : public WorldCore {
   };
   /// What a body has before it: bounds of the contacts that it holds with disks, in seconds from
   /// now, and its first event with a wall.
+  static constexpr double kNear = 1e-9;  ///< s; a guess sooner than that is asked about at once
   struct Foresight : SoonestTwo {
     std::optional<Event<S>> exact;
     const Event<S>* standing = nullptr;  ///< the guess that stood before, if any
@@ -237,6 +238,7 @@ class BasicWorld final : public WorldCore {
   double time_to_renewal(Slot slot, const Sight& own, const SightClock& clock) const;
   double time_to_renewal_far_out(Slot slot) const;
   void offer(Slot holder, Slot changed, double soonest);
+  bool guess_again(Slot holder, Slot changed, double soonest);
   void join(Slot holder, Slot changed, float later);
   void sharpen(Slot slot);
   bool has_guess(Slot slot) const { return queue_.event_of(slot).kind == EventKind::Guess; }
