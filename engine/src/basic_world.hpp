@@ -151,9 +151,10 @@ class BasicWorld final : public WorldCore {
     /// s from now on; what sights show of disks that are alike does not count any later
     double holds_for = std::numeric_limits<double>::infinity();
   };
+  /// s; sooner, a guess would not be below the resolution of time.
+  static constexpr double kNear = 1e-9;
   /// What a body has before it: bounds of the contacts that it holds with disks, in seconds from
   /// now, and its first event with a wall.
-  static constexpr double kNear = 1e-9;  ///< s; a guess sooner than that is asked about at once
   struct Foresight : SoonestTwo {
     std::optional<Event<S>> exact;
     const Event<S>* standing = nullptr;  ///< the guess that stood before, if any
@@ -224,6 +225,13 @@ class BasicWorld final : public WorldCore {
   void look_at_listed(
       Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead);
   void prefetch_sights(Slot slot) const;
+  void look_at_others(Slot slot,
+                      std::span<const Slot> list,
+                      double smallest,
+                      bool changed,
+                      const SightClock& clock,
+                      double renewal,
+                      Foresight& ahead);
   void look_at_unlike(Slot slot,
                       Slot other,
                       bool changed,

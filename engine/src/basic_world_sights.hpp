@@ -83,14 +83,29 @@ void BasicWorld<S, Laws>::look_at_listed(
   } else {
     look_at_all(slot, list, smallest_held, clock, ahead);
   }
-  if (!ahead.has_others) return;
+  if (ahead.has_others) look_at_others(slot, list, smallest_held, changed, clock, renewal, ahead);
+}
+
+// Of those that were passed over: whoever is not like the rest, and the much smaller, which hold
+// their pairs. `smallest`: infinite for a disk that is not like the rest itself.
+template <class S, class Laws>
+[[gnu::noinline]] void BasicWorld<S, Laws>::look_at_others(Slot slot,
+                                                           std::span<const Slot> list,
+                                                           double smallest,
+                                                           bool changed,
+                                                           const SightClock& clock,
+                                                           double renewal,
+                                                           Foresight& ahead) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const bool is_alone = smallest == kNever;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Sight& theirs = sights_.of_slot[index(list[i])];
-    if (!is_passed_over(theirs, smallest_held)) continue;
+    if (!is_passed_over(theirs, smallest)) continue;
     if (is_alone || !is_like(theirs)) {
       look_at_unlike(slot, list[i], changed, clock, renewal, ahead);
-    } else if (changed) {  // a much smaller one, which holds the pair
-      offer(list[i], slot, seconds_of(sights_.bounds[i], clock));
+    } else if (changed) {
+      const double soonest = seconds_of(sights_.bounds[i], clock);
+      if (soonest < kNever) offer(list[i], slot, soonest);
     }
   }
 }
@@ -342,7 +357,9 @@ void BasicWorld<S, Laws>::join(Slot holder, Slot changed, float later) {
     if (!is_like(sights_.of_slot[index(changed)])) {
       theirs.until_guess = -1;  // of walls and the like nothing is known by sight
     } else if (theirs.partner == changed) {
-      theirs.clear_for = safe_difference(theirs.until_guess + theirs.clear_for, later);
+      const double others =
+          static_cast<double>(theirs.until_guess) + static_cast<double>(theirs.clear_for);
+      theirs.clear_for = safe_difference(others, later);
       theirs.until_guess = later;
       name_partner(theirs, changed);
     } else if (later < theirs.until_guess) {

@@ -10,7 +10,7 @@ namespace {
 
 /// What it costs to bring a disk to another cell, in looks at a neighbour. Measured; within a
 /// factor of two it hardly matters.
-constexpr double kCrossing = 14;
+constexpr double kCrossing = 20;
 
 /// About the cube root of a ratio of works; from 1/2 to 4.
 double balanced_by(double ratio) {
