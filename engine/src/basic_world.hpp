@@ -151,6 +151,8 @@ class BasicWorld final : public WorldCore {
     /// s from now on; what sights show of disks that are alike does not count any later
     double holds_for = std::numeric_limits<double>::infinity();
   };
+  /// s; sooner, a guess would not be below the resolution of time.
+  static constexpr double kNear = 1e-9;
   /// What a body has before it: bounds of the contacts that it holds with disks, in seconds from
   /// now, and its first event with a wall.
   struct Foresight : SoonestTwo {
@@ -223,6 +225,13 @@ class BasicWorld final : public WorldCore {
   void look_at_listed(
       Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead);
   void prefetch_sights(Slot slot) const;
+  void look_at_others(Slot slot,
+                      std::span<const Slot> list,
+                      double smallest,
+                      bool changed,
+                      const SightClock& clock,
+                      double renewal,
+                      Foresight& ahead);
   void look_at_unlike(Slot slot,
                       Slot other,
                       bool changed,
@@ -237,6 +246,7 @@ class BasicWorld final : public WorldCore {
   double time_to_renewal(Slot slot, const Sight& own, const SightClock& clock) const;
   double time_to_renewal_far_out(Slot slot) const;
   void offer(Slot holder, Slot changed, double soonest);
+  bool guess_again(Slot holder, Slot changed, double soonest);
   void join(Slot holder, Slot changed, float later);
   void sharpen(Slot slot);
   bool has_guess(Slot slot) const { return queue_.event_of(slot).kind == EventKind::Guess; }

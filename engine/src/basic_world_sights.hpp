@@ -83,14 +83,29 @@ void BasicWorld<S, Laws>::look_at_listed(
   } else {
     look_at_all(slot, list, smallest_held, clock, ahead);
   }
-  if (!ahead.has_others) return;
+  if (ahead.has_others) look_at_others(slot, list, smallest_held, changed, clock, renewal, ahead);
+}
+
+// Of those that were passed over: whoever is not like the rest, and the much smaller, which hold
+// their pairs. `smallest`: infinite for a disk that is not like the rest itself.
+template <class S, class Laws>
+[[gnu::noinline]] void BasicWorld<S, Laws>::look_at_others(Slot slot,
+                                                           std::span<const Slot> list,
+                                                           double smallest,
+                                                           bool changed,
+                                                           const SightClock& clock,
+                                                           double renewal,
+                                                           Foresight& ahead) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const bool is_alone = smallest == kNever;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Sight& theirs = sights_.of_slot[index(list[i])];
-    if (!is_passed_over(theirs, smallest_held)) continue;
+    if (!is_passed_over(theirs, smallest)) continue;
     if (is_alone || !is_like(theirs)) {
       look_at_unlike(slot, list[i], changed, clock, renewal, ahead);
-    } else if (changed) {  // a much smaller one, which holds the pair
-      offer(list[i], slot, seconds_of(sights_.bounds[i], clock));
+    } else if (changed) {
+      const double soonest = seconds_of(sights_.bounds[i], clock);
+      if (soonest < kNever) offer(list[i], slot, soonest);
     }
   }
 }
@@ -223,7 +238,6 @@ void BasicWorld<S, Laws>::name_partner(Event<S>& event, Slot partner) const {
 // Makes the first of what lies ahead the body's event.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double renewal) {
-  constexpr double kNear = 1e-9;  // s; sooner, a guess would not be below the resolution of time
   if (ahead.first < kNear) return predict_closely(slot, /*changed=*/false);
   double limit = renewal;
   if (ahead.exact) limit = std::min(limit, rough_seconds(ahead.exact->at, now_));
@@ -297,6 +311,7 @@ template <class S, class Laws>
 template <class S, class Laws>
 void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
   if (soonest == std::numeric_limits<double>::infinity()) return;
+  if (guess_again(holder, changed, soonest)) return;
   const Event<S>& standing = queue_.event_of(holder);
   const double horizon = horizon_of(standing);
   const bool may_be_first =
@@ -313,6 +328,24 @@ void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {
   join(holder, changed, safe_difference(soonest, horizon));
 }
 
+// The same without a kernel, where the pair becomes the first that `holder` has before it, or was.
+// False, and nothing is done, where that is not so, or is not told at once.
+template <class S, class Laws>
+bool BasicWorld<S, Laws>::guess_again(Slot holder, Slot changed, double soonest) {
+  const Event<S>& standing = queue_.event_of(holder);
+  const bool was_first = standing.partner == changed && standing.kind == EventKind::Guess;
+  double others = rough_seconds(standing.at, now_);  // before that, nothing else
+  if (was_first) others += static_cast<double>(standing.clear_for);
+  if (!(soonest > kNear && soonest < others)) return false;
+  Event<S> next;
+  name_partner(next, changed);
+  next.at = roughly_later(now_, soonest);
+  next.kind = EventKind::Guess;
+  next.clear_for = safe_difference(others, soonest);
+  queue_.set(holder, next, id_lookup());
+  return true;
+}
+
 // A contact with `changed` that comes so many seconds after the event of `holder`, or later, joins
 // what is known of the time after it.
 template <class S, class Laws>
@@ -323,6 +356,12 @@ void BasicWorld<S, Laws>::join(Slot holder, Slot changed, float later) {
     if (!is_anything_known || !(later < theirs.until_guess + theirs.clear_for)) return;
     if (!is_like(sights_.of_slot[index(changed)])) {
       theirs.until_guess = -1;  // of walls and the like nothing is known by sight
+    } else if (theirs.partner == changed) {
+      const double others =
+          static_cast<double>(theirs.until_guess) + static_cast<double>(theirs.clear_for);
+      theirs.clear_for = safe_difference(others, later);
+      theirs.until_guess = later;
+      name_partner(theirs, changed);
     } else if (later < theirs.until_guess) {
       theirs.clear_for = safe_difference(theirs.until_guess, later);
       theirs.until_guess = later;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -171,7 +172,7 @@ TEST(DiskCells, NameStragglersUntilTheirLevelIsEmpty) {
 }
 
 // Bystanders are all whose boxes meet the disk's own, however they came, and few are asked for
-// twice.
+// twice. Where a disk is said to keep them by a step, it does.
 TEST(DiskCells, KnowWhoeverStandsBesideThem) {
   Random random(test::seed_of_run());
   DiskCells cells;
@@ -182,6 +183,7 @@ TEST(DiskCells, KnowWhoeverStandsBesideThem) {
   }
   std::map<std::int32_t, Aabb> boxes;
   int asked = 0;
+  int kept = 0;
   const auto search = [&](const Aabb& area, std::vector<std::int32_t>& found) {
     ++asked;
     for (const auto& [number, box] : boxes) {
@@ -204,17 +206,41 @@ TEST(DiskCells, KnowWhoeverStandsBesideThem) {
     }
     const auto disk = static_cast<std::int32_t>(random.below(60));
     if (!disks.contains(disk)) continue;
-    if (random.one_in(2)) cells.move(disk, random.uniform(-12, 12), random.uniform(-12, 12));
-    const auto known = cells.bystanders(disk, search);
+    const auto known_there = [&]() -> std::optional<std::set<std::int32_t>> {
+      std::set<std::int32_t> known;
+      const bool is_told = cells.for_each_bystander(
+          disk,
+          search,
+          [&](std::int32_t number) { return boxes[number]; },
+          [&](std::int32_t number) { known.insert(number); });
+      return is_told ? std::optional(known) : std::nullopt;
+    };
+    const auto before = known_there();
+    std::optional<DiskCells::Step> step;
+    if (random.one_in(3)) {
+      cells.move(disk, random.uniform(-12, 12), random.uniform(-12, 12));
+    } else {
+      const DiskCells::Cage cage = cells.cage_of(disk);
+      const double way = 3 * cage.half;
+      const double x = cage.x + random.uniform(-way, way);
+      step = cells.move(disk, x, cage.y + random.uniform(-way, way));
+    }
+    std::vector<std::int32_t> old;
+    if (before) old.assign(before->begin(), before->end());
+    const bool keeps = before && step && cells.keeps_bystanders(disk, *step, old);
+    kept += keeps ? 1 : 0;
+    const auto known = known_there();
+    ASSERT_TRUE(known || !keeps);
     if (!known) continue;
+    ASSERT_TRUE(!keeps || *known == *before);
     if (cells.is_by_itself(disk)) {
       EXPECT_TRUE(known->empty());
     }
     for (const auto& [number, box] : boxes) {
-      if (!overlaps(box, cells.box_of(disk))) continue;
-      ASSERT_NE(std::find(known->begin(), known->end(), number), known->end());
+      ASSERT_TRUE(!overlaps(box, cells.box_of(disk)) || known->contains(number));
     }
   }
+  EXPECT_GT(kept, kTries / 50);
   EXPECT_LT(asked, kTries / 2);
 }
 

@@ -31,6 +31,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <vector>
@@ -76,24 +77,60 @@ class DiskCells {
     const CellStore::Note& note = store_.note_of_block_of(disk);
     return note.as_of == changes_ && lists_.size(note.list) == 0 && levels_.size() == 1;
   }
-  /// What may be near the disk without standing in a cell, and more: all that `search(box, found)`
-  /// has added to `found` for a box around the disk's block of cells. None where that is much.
+  /// Calls visit(body) for what may be near the disk without standing in a cell: of all that
+  /// `search(box, found)` adds to `found` for a box around the disk's block of cells, those whose
+  /// `box_of(body)` comes to the disk's cage. False, and nothing is done, where the block has many.
   /// REQUIRES: contained.
-  template <class Search>
-  std::optional<std::span<const std::int32_t>> bystanders(std::int32_t disk, const Search& search) {
-    constexpr std::size_t kMany = 32;
+  template <class Search, class BoxOf, class Visit>
+  bool for_each_bystander(std::int32_t disk,
+                          const Search& search,
+                          const BoxOf& box_of,
+                          const Visit& visit) {
     const auto [key, note] = store_.noted_block_of(disk);
     if (note->as_of != changes_) {
+      const Level& level = level_of(key.level);
       asked_.clear();
-      search(box_of_block(level_of(key.level), key), asked_);
-      asked_.resize(std::min(asked_.size(), kMany));
-      lists_.assign(note->list, asked_);
+      search(box_of_block(level, key), asked_);
+      noted_.clear();
+      for (std::size_t i = 0; i < std::min(asked_.size(), kManyBystanders); ++i) {
+        note_down(asked_[i], cells_within(level, key, box_of(asked_[i])));
+      }
+      lists_.assign(note->list, noted_);
       note->as_of = changes_;
     }
-    const auto known = lists_.items(note->list);
-    if (known.size() == kMany) return std::nullopt;
-    return known;
+    const auto noted = lists_.items(note->list);
+    if (noted.size() == kManyBystanders * kWordsNoted) return false;
+    const std::uint64_t here = bit_of(store_.cell_of(disk));
+    for (std::size_t i = 0; i < noted.size(); i += kWordsNoted) {
+      if ((cells_noted(&noted[i]) & here) != 0) visit(noted[i]);
+    }
+    return true;
   }
+  /// Are all that for_each_bystander() would find `known`, which was so before the disk's last step
+  /// too, and is nothing else to be found? No, where that is not told at once. REQUIRES: contained.
+  bool keeps_bystanders(std::int32_t disk,
+                        const Step& step,
+                        std::span<const std::int32_t> known) const {
+    const CellStore::Note& note = store_.note_of_block_of(disk);
+    if (note.as_of != changes_ || levels_.size() != 1) return false;
+    const Cell to = store_.cell_of(disk);
+    const std::int64_t x = (to.x & kLastInBlock) - step.dx, y = (to.y & kLastInBlock) - step.dy;
+    if (((x | y) & ~kLastInBlock) != 0) return false;
+    const std::uint64_t here = bit_of(to);
+    const std::uint64_t both = here | bit_of({x, y});
+    const auto noted = lists_.items(note.list);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < noted.size(); i += kWordsNoted) {
+      const std::uint64_t near = cells_noted(&noted[i]) & both;
+      if (near == 0) continue;
+      if (near != both || std::find(known.begin(), known.end(), noted[i]) == known.end()) {
+        return false;
+      }
+      ++found;
+    }
+    return found == known.size() && noted.size() != kManyBystanders * kWordsNoted;
+  }
+  bool has_other_levels() const { return levels_.size() > 1; }
   /// To be told of each box of a body in no cell, when it comes and when it goes.
   void note_bystander(const Aabb& box);
 
@@ -181,6 +218,38 @@ class DiskCells {
                     visit);
   }
 
+  // Of a body beside a block it is noted near which of its cells it may be, one bit each.
+  static constexpr std::size_t kManyBystanders = 32;
+  static constexpr std::size_t kWordsNoted = 3;
+  static constexpr std::int64_t kLastInBlock = CellStore::kBlockSide - 1;
+  static_assert(CellStore::kBlockCells == 64);
+
+  static std::uint64_t bit_of(const Cell& cell) {
+    return std::uint64_t{1} << ((cell.y & kLastInBlock) * CellStore::kBlockSide +
+                                (cell.x & kLastInBlock));
+  }
+  static std::uint64_t cells_noted(const std::int32_t* noted) {
+    std::uint64_t cells = 0;
+    std::memcpy(&cells, noted + 1, sizeof cells);
+    return cells;
+  }
+  void note_down(std::int32_t body, std::uint64_t cells) {
+    noted_.resize(noted_.size() + kWordsNoted);
+    std::int32_t* const words = noted_.data() + noted_.size() - kWordsNoted;
+    words[0] = body;
+    std::memcpy(words + 1, &cells, sizeof cells);
+  }
+  /// The cells whose cages, with their disks, a box may overlap.
+  static CellStore::Range cells_beside(const Level& level, const Aabb& box) {
+    const double beyond = (kBeyond + kRounding) * level.side + level.radius_max;
+    return {CellStore::floor_of((box.low_x - beyond) * level.inverse),
+            CellStore::floor_of((box.low_y - beyond) * level.inverse),
+            CellStore::floor_of((box.high_x + beyond) * level.inverse),
+            CellStore::floor_of((box.high_y + beyond) * level.inverse)};
+  }
+  /// Those of a block, one bit each.
+  static std::uint64_t cells_within(const Level& level, const Cell& key, const Aabb& box);
+
   static double least_side(double radius_max) {
     return 2 * radius_max / (1 - 2 * kBeyond - 2 * kRounding);
   }
@@ -231,6 +300,7 @@ class DiskCells {
   ListPool lists_;             // of bystanders
   std::uint64_t changes_ = 1;  // among them, that concern too many blocks to be told to each
   std::vector<std::int32_t> asked_;
+  std::vector<std::int32_t> noted_;
 };
 
 }  // namespace stoss::engine

@@ -174,6 +174,7 @@ class Neighbours {
     before_.clear();
     const auto list = list_of(slot);
     if (list.empty() && cells_.is_by_itself(slot)) return true;
+    if (cells_.keeps_bystanders(slot, *step, list) && all_keep_lists(list)) return true;
     before_.assign(list.begin(), list.end());
     find_from_cell(slot, interacts);
     if (!found_.empty() || !before_.empty()) replace_neighbours(slot);
@@ -280,6 +281,10 @@ class Neighbours {
 
   static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
   bool keeps_list(Slot slot) const { return standing_[index(slot)].role == Role::DynamicDisk; }
+  // Of others than these it may depend on the cell whether the disk has them as neighbours.
+  bool all_keep_lists(std::span<const Slot> slots) const {
+    return std::all_of(slots.begin(), slots.end(), [this](Slot slot) { return keeps_list(slot); });
+  }
   static void keep_each_once(std::vector<Slot>& slots) {
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
@@ -339,19 +344,23 @@ class Neighbours {
   // Whom a disk in a cell has as neighbours, but for those whom it knows from the cells: found_.
   template <class Interacts>
   void find_from_cell(Slot slot, const Interacts& interacts) {
-    const Aabb box = cells_.box_of(slot);
-    const auto near = cells_.bystanders(slot, [this](const Aabb& area, std::vector<Slot>& found) {
+    found_.clear();
+    const auto search = [this](const Aabb& area, std::vector<Slot>& found) {
       for (const Slot other : grid_.find(area)) found.push_back(other);
       tree_.query(area, [&](Slot other) { found.push_back(other); });
+    };
+    const bool is_told = cells_.for_each_bystander(
+        slot,
+        search,
+        [this](Slot other) { return box_of_place(place(other)); },
+        [&](Slot other) {
+          if (keeps_list(other) || interacts(other)) found_.push_back(other);
+        });
+    if (!is_told) return find(slot, cells_.box_of(slot), interacts, NoCopies{});
+    if (!cells_.has_other_levels()) return;
+    cells_.find(cells_.box_of(slot), cells_.cell_of(slot).level, [this](Slot other) {
+      found_.push_back(other);
     });
-    if (!near) return find(slot, box, interacts, NoCopies{});
-    found_.clear();
-    for (const Slot other : *near) {
-      if (overlaps(box_of_place(place(other)), box) && (keeps_list(other) || interacts(other))) {
-        found_.push_back(other);
-      }
-    }
-    cells_.find(box, cells_.cell_of(slot).level, [this](Slot other) { found_.push_back(other); });
   }
 
   // Whom the body has as neighbours with the box that it has now, but for those whom it knows from
