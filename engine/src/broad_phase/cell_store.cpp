@@ -38,8 +38,8 @@ void CellStore::move_far(std::int32_t item, std::int64_t dx, std::int64_t dy) {
   const std::int32_t block =
       is_near(x) && is_near(y)
           ? heads_[index(own)].beside[beside(x >> kBlockShift, y >> kBlockShift)]
-          : kNone;
-  if (block == kNone) {
+          : kNoBlock;
+  if (block == kNoBlock) {
     remove(item);
     return insert(item, {from.x + dx, from.y + dy, from.level});
   }
@@ -113,7 +113,7 @@ std::int32_t* CellStore::collect_hanging(std::size_t block,
   return to;
 }
 
-std::int32_t* CellStore::collect_hanging_across(std::int32_t item, std::int32_t* to) const {
+std::int32_t* CellStore::collect_hanging_around(std::int32_t item, std::int32_t* to) const {
   const std::int32_t own = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
   const Head& head = heads_[index(own)];
   const Cell cell = cell_of(item);
@@ -121,7 +121,6 @@ std::int32_t* CellStore::collect_hanging_across(std::int32_t item, std::int32_t*
   for (std::int64_t by = cells.y0 >> kBlockShift; by <= cells.y1 >> kBlockShift; ++by) {
     for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= cells.x1 >> kBlockShift; ++bx) {
       const std::int32_t block = head.beside[beside(bx - head.x, by - head.y)];
-      if (block == kNone) continue;
       const std::uint64_t crowded = heads_[index(block)].crowded & bits_of(part_of(cells, bx, by));
       to = collect_hanging(index(block), crowded, item, to);
     }
@@ -162,7 +161,6 @@ std::int32_t CellStore::make_block(const Cell& key) {
     block = free_blocks_.back();
     free_blocks_.pop_back();
   }
-  blocks_[index(block)].items.fill(kNone);
   const PooledList inherited = heads_[index(block)].note.list;
   heads_[index(block)] = {key.x, key.y, key.level, 0, 0, {}, 0, {0, inherited}};
   if (2 * ++entries_ > table_.size()) resize_table(2 * table_.size());
@@ -172,7 +170,7 @@ std::int32_t CellStore::make_block(const Cell& key) {
 }
 
 void CellStore::drop_block(std::int32_t block) {
-  link(block, kNone);
+  link(block, kNoBlock);
   free_blocks_.push_back(block);
   drop_entry(entry_of(heads_[index(block)].key()));
 }
@@ -183,7 +181,7 @@ void CellStore::link(std::int32_t block, std::int32_t as) {
   for (std::int64_t dy = -1; dy <= 1; ++dy) {
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
       const std::int32_t other = table_[entry_of({key.x + dx, key.y + dy, key.level})];
-      heads_[index(block)].beside[beside(dx, dy)] = other;
+      heads_[index(block)].beside[beside(dx, dy)] = other != kNone ? other : kNoBlock;
       if (other != kNone) heads_[index(other)].beside[beside(-dx, -dy)] = as;
     }
   }
@@ -216,7 +214,7 @@ void CellStore::pack_blocks() {
   std::vector<std::int32_t> numbers(blocks_.size(), kNone);
   std::size_t in_use = 0;
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
-    if (heads_[block].items == 0) continue;
+    if (heads_[block].items == 0 && block != kNoBlock) continue;
     numbers[block] = static_cast<std::int32_t>(in_use);
     blocks_[in_use] = blocks_[block];
     heads_[in_use] = heads_[block];
@@ -237,9 +235,7 @@ void CellStore::renumber(const std::vector<std::int32_t>& numbers) {
   }
   resize_table(std::max(kTableLeast, std::bit_ceil(2 * entries_)));
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
-    for (std::int32_t& other : heads_[block].beside) {
-      if (other != kNone) other = numbers[index(other)];
-    }
+    for (std::int32_t& other : heads_[block].beside) other = numbers[index(other)];
     const auto number = static_cast<std::int32_t>(block);
     for_each_in(number, {0, 0, kBlockSide - 1, kBlockSide - 1}, [&](std::int32_t item) {
       constexpr auto kCells = static_cast<std::int32_t>(kBlockCells);

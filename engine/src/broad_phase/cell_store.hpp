@@ -116,7 +116,7 @@ class CellStore {
     for (std::int64_t by = cells.y0 >> kBlockShift; by <= by1; ++by) {
       for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= bx1; ++bx) {
         const std::int32_t block = head.beside[beside(bx - head.x, by - head.y)];
-        if (block != kNone) to = collect_in(index(block), part_of(cells, bx, by), item, to);
+        to = collect_in(index(block), part_of(cells, bx, by), item, to);
       }
     }
     return to;
@@ -243,8 +243,8 @@ class CellStore {
     std::int64_t y = 0;
     std::int32_t level = 0;
     mutable std::uint32_t looks = 0;
-    std::uint64_t crowded = 0;           ///< a bit for each cell with items behind its second
-    std::array<std::int32_t, 9> beside;  ///< the blocks around it, itself in the middle
+    std::uint64_t crowded = 0;             ///< a bit for each cell with items behind its second
+    std::array<std::int32_t, 9> beside{};  ///< the blocks around it, itself in the middle
     std::int32_t items = 0;
     Note note;
 
@@ -256,7 +256,10 @@ class CellStore {
   }
   struct alignas(64) Block {
     std::array<std::int32_t, 2 * kBlockCells> items;
+    Block() { items.fill(kNone); }
   };
+  /// The block that stands for all that hold nothing, and is not in the table.
+  static constexpr std::int32_t kNoBlock = 0;
   struct Link {
     std::int32_t cell = kNone;  ///< or kBelowNone less what is kept for the item
     std::int32_t next = kNone;  ///< of the second in a cell, and of those behind it
@@ -281,7 +284,6 @@ class CellStore {
   }
   /// The cells of such a part as bits.
   static std::uint64_t bits_of(const Range& part) {
-    constexpr std::uint64_t kEveryRow = 0x0101010101010101U;
     const std::uint64_t row = (0xffU >> (7 - part.x1)) & (0xffU << part.x0);
     const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - part.y1)));
     return row * kEveryRow & rows & (~std::uint64_t{0} << (8 * part.y0));
@@ -310,53 +312,74 @@ class CellStore {
   /// By its numbers, counted from the corner of the block. REQUIRES: within 8 cells of it.
   Seen seen_from(const Head& head, int x, int y) const {
     const std::int32_t block = head.beside[beside(x >> kBlockShift, y >> kBlockShift)];
-    if (block == kNone) return {kEmptyRow.data(), kNone, 0};
     const std::size_t at = in_block(x, y);
     return {&blocks_[index(block)].items[2 * at],
             block,
             heads_[index(block)].crowded & std::uint64_t{1} << at};
   }
 
-  /// A row of a block.
-  struct Row {
-    const std::int32_t* places;
-    std::uint64_t crowded;  ///< its cells' bits
+  /// Of cells as they are seen from a block beside it, or from their own: which block, counted from
+  /// the middle of a row of three, and which place in a row of that.
+  struct Column {
+    int block;
+    int place;
   };
-  static constexpr auto kEmptyRow = [] {
-    std::array<std::int32_t, 2 * kBlockSide> places{};
-    places.fill(kNone);
-    return places;
-  }();
-  Row row_of(std::int32_t block, int y) const {
-    if (block == kNone) return {kEmptyRow.data(), 0};
-    return {&blocks_[index(block)].items[static_cast<std::size_t>(2 * kSide * y)],
-            heads_[index(block)].crowded >> (kSide * y)};
+  static Column column_of(int x) { return {x >> kBlockShift, 2 * (x & (kSide - 1))}; }
+
+  /// Of a column and those beside it: which cells of its block stand in them, and which of the
+  /// block beside, if one of them is there. The same of rows.
+  struct Strip {
+    std::uint64_t own = 0;
+    std::uint64_t beyond = 0;
+    int beside = 0;
+  };
+  static constexpr std::array<Strip, kSide> strips_of(std::uint64_t first, int shift) {
+    std::array<Strip, kSide> strips{};
+    for (int i = 0; i < kSide; ++i) {
+      Strip& strip = strips[static_cast<std::size_t>(i)];
+      for (int j = std::max(i - 1, 0); j <= std::min(i + 1, kSide - 1); ++j) {
+        strip.own |= first << (j * shift);
+      }
+      strip.beside = i == 0 ? -1 : i == kSide - 1 ? 1 : 0;
+      if (strip.beside != 0) strip.beyond = first << ((strip.beside < 0 ? kSide - 1 : 0) * shift);
+    }
+    return strips;
   }
-  // The nine cells around one at its block's edge.
+  static constexpr std::uint64_t kEveryRow = 0x0101010101010101U;  // its first cell
+
+  /// Do items hang behind others in the nine cells around one? They are in four blocks at most.
+  bool is_crowded_around(const Head& head, std::size_t x, std::size_t y) const {
+    static constexpr auto kColumns = strips_of(kEveryRow, 1);
+    static constexpr auto kRows = strips_of(0xff, kSide);
+    const Strip& columns = kColumns[x];
+    const Strip& rows = kRows[y];
+    const auto crowded = [&](int dx, int dy) {
+      return heads_[index(head.beside[beside(dx, dy)])].crowded;
+    };
+    return ((crowded(0, 0) & columns.own & rows.own) |
+            (crowded(columns.beside, 0) & columns.beyond & rows.own) |
+            (crowded(0, rows.beside) & columns.own & rows.beyond) |
+            (crowded(columns.beside, rows.beside) & columns.beyond & rows.beyond)) != 0;
+  }
+  // The nine cells around one at its block's edge, which almost half of all are.
   std::int32_t* collect_across(
       std::int32_t item, const Head& head, int x, int y, std::int32_t* to) const {
+    const std::array<Column, 3> columns{column_of(x - 1), column_of(x), column_of(x + 1)};
     const std::int32_t* const start = to;
-    const int side = x == 0 ? -1 : x == kSide - 1 ? 1 : 0;
-    const int left = (x - 1) & (kSide - 1), right = (x + 1) & (kSide - 1);
-    const auto bit = [](int column) { return std::uint64_t{1} << column; };
-    const std::uint64_t beside_side = side == 0 ? 0 : bit(side < 0 ? left : right);
-    const std::uint64_t beside_own = (bit(left) | bit(x) | bit(right)) & ~beside_side;
-    std::uint64_t crowded = 0;
     for (int row = y - 1; row <= y + 1; ++row) {
-      const int up = row >> kBlockShift, in_block = row & (kSide - 1);
-      const Row own = row_of(head.beside[beside(0, up)], in_block);
-      const Row other = row_of(head.beside[beside(side, up)], in_block);
-      to = take_three((side < 0 ? other : own).places + 2 * left,
-                      own.places + 2 * x,
-                      (side > 0 ? other : own).places + 2 * right,
-                      item,
-                      to);
-      crowded |= (own.crowded & beside_own) | (other.crowded & beside_side);
+      const std::int32_t* const blocks = &head.beside[beside(0, row >> kBlockShift)];
+      const int first = 2 * kSide * (row & (kSide - 1));
+      const auto places = [&](const Column& column) {
+        return blocks_[index(blocks[column.block])].items.data() + first + column.place;
+      };
+      to = take_three(places(columns[0]), places(columns[1]), places(columns[2]), item, to);
     }
     head.looks += static_cast<std::uint32_t>(to - start);
-    return crowded == 0 ? to : collect_hanging_across(item, to);
+    const bool is_crowded =
+        is_crowded_around(head, static_cast<std::size_t>(x), static_cast<std::size_t>(y));
+    return is_crowded ? collect_hanging_around(item, to) : to;
   }
-  std::int32_t* collect_hanging_across(std::int32_t item, std::int32_t* to) const;
+  std::int32_t* collect_hanging_around(std::int32_t item, std::int32_t* to) const;
   std::int32_t* collect_hanging(std::size_t block,
                                 std::uint64_t cells,
                                 std::int32_t but_for,
@@ -417,8 +440,8 @@ class CellStore {
   void renumber(const std::vector<std::int32_t>& numbers);
 
   std::vector<Link> links_;  // of the items
-  std::vector<Block> blocks_;
-  std::vector<Head> heads_;  // of the blocks
+  std::vector<Block> blocks_ = std::vector<Block>(1);
+  std::vector<Head> heads_ = std::vector<Head>(1);  // of the blocks
   std::vector<std::int32_t> free_blocks_;
   /// Of blocks, by their keys; open addressing. A block beside another is known without it.
   static constexpr std::size_t kTableLeast = 64;
