@@ -15,6 +15,7 @@
 //  2. A prediction depends on the stored motions of the pair (and on walls that share the vertex).
 //  3. Slots, boxes, lists and the queue never reach an output.
 
+#include "bodies.hpp"
 #include "body.hpp"
 #include "broad_phase/neighbours.hpp"
 #include "bytes.hpp"
@@ -46,6 +47,9 @@ namespace stoss::engine {
 
 /// The largest a disk may be, as a multiple of its partner, to hold their prediction.
 inline constexpr int kHolderRatioMax = 4;
+/// s; so soon at the latest the box of a body that moves is renewed, however slow it is: whoever
+/// moves has an event, and can be found among those. Chosen: a quarter of all time.
+inline constexpr double kLongestWait = 0x1p59;
 /// This many collisions at one instant, and 64 a body, with no command in between, are no physics
 /// but a packing without room: the world reports a stall and goes no further.
 inline constexpr std::uint64_t kStallCollisions = 100'000;
@@ -106,6 +110,8 @@ class BasicWorld final : public WorldCore {
   using Relative = typename Laws::template Relative<S>;
   using Radius = typename Laws::template Radius<S>;
   using Reach = typename Laws::template Reach<S>;
+  using ConstBody = typename Bodies<S, Laws>::ConstView;
+  using Seen = typename Bodies<S, Laws>::Seen;
   /// Which image of a body is meant; a plain world has no others, and nothing to say.
   using Which = std::conditional_t<Laws::kPlain, OneImage, Image>;
 
@@ -167,11 +173,11 @@ class BasicWorld final : public WorldCore {
   };
 
   static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
-  Body<S, Laws>& at(Slot slot) { return bodies_[index(slot)]; }
-  const Body<S, Laws>& at(Slot slot) const { return bodies_[index(slot)]; }
-  WallShape<S>& shape(Slot slot) { return shapes_[static_cast<std::size_t>(at(slot).wall)]; }
+  typename Bodies<S, Laws>::View at(Slot slot) { return bodies_.at(slot); }
+  ConstBody at(Slot slot) const { return bodies_.at(slot); }
+  WallShape<S>& shape(Slot slot) { return shapes_[static_cast<std::size_t>(at(slot).wall())]; }
   const WallShape<S>& shape(Slot slot) const {
-    return shapes_[static_cast<std::size_t>(at(slot).wall)];
+    return shapes_[static_cast<std::size_t>(at(slot).wall())];
   }
   bool all_pairs() const { return broad_phase_ == BroadPhaseKind::AllPairs; }
   auto id_lookup() const;
@@ -243,7 +249,7 @@ class BasicWorld final : public WorldCore {
   void name_partner(Event<S>& event, Slot partner) const;
   Event<S> guess_after(double renewal, const Foresight& ahead) const;
   void schedule(Slot slot, const Foresight& ahead, double renewal);
-  double time_to_renewal(Slot slot, const Sight& own, const SightClock& clock) const;
+  double time_to_renewal(Slot slot, const Seen& own, const SightClock& clock) const;
   double time_to_renewal_far_out(Slot slot) const;
   void offer(Slot holder, Slot changed, double soonest);
   bool guess_again(Slot holder, Slot changed, double soonest);
@@ -294,6 +300,7 @@ class BasicWorld final : public WorldCore {
   bool is_in_bounds(Slot slot) const;
 
   // basic_world_events.hpp
+  void go_on_to(const Time<S>& instant);
   bool is_stale(const Event<S>& event) const;
   Slot next_slot();
   /// Bodies whose memory is no longer at hand, and those with which a second step of asking for it
@@ -303,7 +310,7 @@ class BasicWorld final : public WorldCore {
   bool is_worth_asking_ahead(std::size_t bodies_least) const;
   void prefetch_event(Slot slot) const;
   void prefetch_body(Slot slot) const;
-  void prefetch_cells_of_event(Slot slot) const;
+  void prefetch_cells_of_second_event() const;
   void prefetch_cells(Slot slot) const;
   bool process(Slot slot, CollisionSink* sink);
   void resolve(const Contact& contact, const Time<S>& instant, CollisionSink* sink);
@@ -356,13 +363,11 @@ class BasicWorld final : public WorldCore {
   ContactOutcome lossy_impulse(const Contact& contact,
                                const DoubleWord2<S>& velocity,
                                const Time<S>& instant) const;
-  bool collided_lately(const Body<S, Laws>& a,
-                       const Time<S>& instant,
-                       const Body<S, Laws>& b) const;
+  bool collided_lately(ConstBody a, const Time<S>& instant, ConstBody b) const;
   void note_contact(Slot slot, const DoubleWord<S>& spin_change, const Time<S>& instant);
   bool order_matters_between(
       const Vector2& n1, const Vector2& n2, double w0, double w1, double w2) const;
-  DoubleWord<S> twice_spin_energy(const Body<S, Laws>& body) const;
+  DoubleWord<S> twice_spin_energy(ConstBody body) const;
   template <class Sink>
   void write_body_part(Sink& sink, Slot slot, const Effects& kind) const;
   void read_body_part(ByteSource& source, Slot slot);
@@ -512,7 +517,7 @@ class BasicWorld final : public WorldCore {
   Id next_id_ = 1;
   IdLedger ledger_;
 
-  std::vector<Body<S, Laws>> bodies_;
+  Bodies<S, Laws> bodies_;
   std::vector<WallShape<S>> shapes_;
   std::vector<Slot> free_slots_;
   std::vector<std::int32_t> free_shapes_;
@@ -527,7 +532,6 @@ class BasicWorld final : public WorldCore {
 
   /// What a prediction looks at.
   struct Sights {
-    std::vector<Sight> of_slot;
     Epoch<S> epoch;
     std::uint64_t uses = 0;              ///< in this epoch
     mutable std::vector<double> bounds;  ///< of contacts with those that were looked at last
@@ -563,7 +567,7 @@ BasicWorld<S, Laws>::BasicWorld(const WorldOptions& options)
       broad_phase_(options.broad_phase),
       laws_(options.effects),
       space_(options.period) {
-  sights_.epoch.begin = now_;
+  sights_.epoch.start(now_);
 }
 
 }  // namespace stoss::engine

@@ -29,27 +29,27 @@ inline constexpr int kTypeBits = 8;
 template <class S, class Laws>
 template <class Sink>
 void BasicWorld<S, Laws>::write_body(Sink& sink, Slot slot, const Effects& kind) const {
-  const Body<S, Laws>& body = at(slot);
+  const auto& body = at(slot);
   sink.word(body.id);
   sink.word(static_cast<std::uint64_t>(body.type) | (passage_count(slot) << kTypeBits));
-  write_time(sink, body.motion.since);
-  write_vector(sink, body.motion.position);
-  write_vector(sink, body.motion.velocity);
+  write_time(sink, body.since());
+  write_vector(sink, body.position());
+  write_vector(sink, body.velocity());
   if (body.is_wall()) {
     write_vector(sink, shape(slot).edge);
     return;
   }
   if (is_zone(slot)) {
-    write_scalar(sink, body.radius);
+    write_scalar(sink, body.radius());
     return;
   }
   if constexpr (Laws::kGrows) {
     const bool goes_on = laws_for(kind) == LawsKind::Growing;
-    write_scalar(sink, goes_on ? body.radius : to_scalar(body.grown));
+    write_scalar(sink, goes_on ? body.radius() : to_scalar(body.grown));
   } else {
-    write_scalar(sink, body.radius);
+    write_scalar(sink, body.radius());
   }
-  write_scalar(sink, body.mass);
+  write_scalar(sink, body.mass());
   write_body_part(sink, slot, kind);
   write_passages(sink, slot);
 }
@@ -230,36 +230,36 @@ const char* BasicWorld<S, Laws>::read_bodies(ByteSource& source) {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::read_body(ByteSource& source, Id id, BodyType type) {
   const Slot slot = take_slot(id, type);
-  Body<S, Laws>& body = at(slot);
-  body.motion.since = read_time<Time<S>>(source);
-  body.motion.position = read_vector<S>(source);
-  body.motion.velocity = read_vector<S>(source);
+  auto&& body = at(slot);
+  body.set_since(read_time<Time<S>>(source));
+  body.set_position(read_vector<S>(source));
+  body.set_velocity(read_vector<S>(source));
   if (body.is_wall()) {
-    body.wall = static_cast<std::int32_t>(shapes_.size());
+    body.set_wall(static_cast<std::int32_t>(shapes_.size()));
     shapes_.push_back({read_vector<S>(source), {}});
     ++walls_in_use_;
     return;
   }
-  body.radius = read_scalar<S>(source);
+  body.set_radius(read_scalar<S>(source));
   if (is_zone(slot)) {
     ++zones_in_use_;
     return;
   }
-  body.mass = read_scalar<S>(source);
+  body.set_mass(read_scalar<S>(source));
   read_body_part(source, slot);
 }
 
 // Could this body have come of commands and collisions?
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
-  const Body<S, Laws>& body = at(slot);
+  const auto& body = at(slot);
   const auto is_number = [](const DoubleWord<S>& x) {
     return std::isfinite(static_cast<double>(x.hi)) && S(x.hi + x.lo) == x.hi;
   };
   const auto are_numbers = [&](const DoubleWord2<S>& v) {
     return is_number(v.x) && is_number(v.y);
   };
-  const Motion<S>& m = body.motion;
+  const auto& m = body.motion();
   if (!in_range(to_instant(m.since)) || m.since > now_) return false;
   if (!are_numbers(m.position) || !are_numbers(m.velocity) || !is_in_bounds(slot)) return false;
   if (body.is_wall()) {
@@ -268,7 +268,7 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
   }
   const bool moves = m.velocity.x.hi != S(0) || m.velocity.y.hi != S(0);
   if (body.type == BodyType::Static && moves) return false;
-  if (!(body.radius > S(0) && static_cast<double>(body.radius) <= detail::kLengthMax<S>)) {
+  if (!(body.radius() > S(0) && static_cast<double>(body.radius()) <= detail::kLengthMax<S>)) {
     return false;
   }
   if (is_zone(slot)) return !moves;
@@ -276,14 +276,14 @@ bool BasicWorld<S, Laws>::is_sound(Slot slot) const {
     if (!is_number(body.grown) || !(body.grown.hi > S(0))) return false;
   }
   const Rotation rotation = rotation_of(slot);
-  return has_sound_kicks(slot) && detail::is_usable_mass<S>(static_cast<double>(body.mass)) &&
+  return has_sound_kicks(slot) && detail::is_usable_mass<S>(static_cast<double>(body.mass())) &&
          std::isfinite(rotation.angle) && std::isfinite(rotation.spin);
 }
 
 // Boxes, vertices and events for bodies that have just been read.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::settle() {
-  sights_.epoch.begin = now_;
+  sights_.epoch.start(now_);
   for (const Slot slot : ordered_slots()) renew_law(slot);
   for (const Slot slot : ordered_slots()) renew_box(slot, first_margin(slot));
   for (const Slot slot : ordered_slots()) {

@@ -28,7 +28,7 @@ Aabb BasicWorld<S, Laws>::swept_box(Slot slot) const {
 template <class S, class Laws>
 Aabb BasicWorld<S, Laws>::swept_box(Slot slot, const Aabb& end) const {
   const DoubleWord2<S> now = position_of(slot, now_);
-  const DoubleWord2<S>& then = at(slot).motion.position;
+  const DoubleWord2<S>& then = at(slot).position();
   const auto back_x = static_cast<double>(to_scalar(then.x - now.x));
   const auto back_y = static_cast<double>(to_scalar(then.y - now.y));
   const Aabb start{
@@ -36,16 +36,16 @@ Aabb BasicWorld<S, Laws>::swept_box(Slot slot, const Aabb& end) const {
   if constexpr (Laws::kDragged) {
     // It flies within the parallelogram of its two shares, v s and a f.
     if (!at(slot).is_dynamic()) return merged(start, end);
-    const double run = detail::rough_drag_clock(rough_seconds(now_, at(slot).motion.since),
+    const double run = detail::rough_drag_clock(rough_seconds(now_, at(slot).since()),
                                                 static_cast<double>(laws_.drag))
                            .run;
-    const Vector2 share = run * detail::rounded(at(slot).motion.velocity);
+    const Vector2 share = run * detail::rounded(at(slot).velocity());
     return merged(merged(start, end),
                   merged(detail::moved_by(start, share), detail::moved_by(end, -share)));
   }
   double sag = 0;  // between its ends a parabola leaves the chord by a T^2 / 8
   if constexpr (Laws::kCurved) {
-    const double elapsed = rough_seconds(now_, at(slot).motion.since);
+    const double elapsed = rough_seconds(now_, at(slot).since());
     sag = pull_of(slot) * elapsed * elapsed / 8 * (1 + kScreenSlack<S>);
   }
   return grown(merged(start, end), sag);

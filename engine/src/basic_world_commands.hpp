@@ -239,7 +239,6 @@ void BasicWorld<S, Laws>::make_room(std::size_t count) {
   const std::size_t all = bodies_.size() + count;
   bodies_.reserve(all);
   slots_.reserve(all, id_of_slot());
-  sights_.of_slot.reserve(all);
   queue_.admit(static_cast<Slot>(all - 1));
   if (!all_pairs()) neighbours_.make_room(all);
 }
@@ -249,21 +248,19 @@ Slot BasicWorld<S, Laws>::take_slot(Id id, BodyType type) {
   Slot slot;
   if (free_slots_.empty()) {
     slot = static_cast<Slot>(bodies_.size());
-    bodies_.emplace_back();
+    bodies_.add();
   } else {
     slot = free_slots_.back();
     free_slots_.pop_back();
   }
-  Body<S, Laws>& body = at(slot);
-  const std::uint32_t changes = body.changes;  // never repeats, so that old events stay stale
-  body = Body<S, Laws>{};
-  body.changes = changes + 1;
+  bodies_.clear(slot);
+  auto&& body = at(slot);
+  ++body.changes;
   body.id = id != kNoId ? id : next_id_++;
   body.type = type;
-  body.motion.since = now_;
+  body.set_since(now_);
   slots_.insert(body.id, slot, id_of_slot());
   queue_.admit(slot);
-  sights_.of_slot.resize(bodies_.size());
   note_digest_stale(slot);
   ordered_valid_ = false;
   return slot;
@@ -272,12 +269,12 @@ Slot BasicWorld<S, Laws>::take_slot(Id id, BodyType type) {
 template <class S, class Laws>
 Slot BasicWorld<S, Laws>::place(const DiskSpec& spec) {
   const Slot slot = take_slot(spec.id, type_of(spec.kind));
-  Body<S, Laws>& body = at(slot);
-  body.motion.position = detail::stored<S>(spec.position);
-  body.motion.velocity = detail::stored<S>(spec.velocity);
-  body.radius = S(spec.radius);
-  if constexpr (Laws::kGrows) body.grown = {body.radius, S(0)};
-  body.mass = S(spec.mass);
+  auto&& body = at(slot);
+  body.set_position(detail::stored<S>(spec.position));
+  body.set_velocity(detail::stored<S>(spec.velocity));
+  body.set_radius(S(spec.radius));
+  if constexpr (Laws::kGrows) body.grown = {body.radius(), S(0)};
+  body.set_mass(S(spec.mass));
   set_rotation(slot, {detail::canonical(spec.angle), detail::canonical(spec.spin)});
   start_kicks(slot);
   renew_law(slot);
@@ -287,18 +284,18 @@ Slot BasicWorld<S, Laws>::place(const DiskSpec& spec) {
 template <class S, class Laws>
 Slot BasicWorld<S, Laws>::place(const WallSpec& spec) {
   const Slot slot = take_slot(spec.id, BodyType::Wall);
-  Body<S, Laws>& body = at(slot);
-  body.motion.position = detail::stored<S>(spec.start);
-  body.motion.velocity = detail::stored<S>(spec.velocity);
+  auto&& body = at(slot);
+  body.set_position(detail::stored<S>(spec.start));
+  body.set_velocity(detail::stored<S>(spec.velocity));
   if (free_shapes_.empty()) {
-    body.wall = static_cast<std::int32_t>(shapes_.size());
+    body.set_wall(static_cast<std::int32_t>(shapes_.size()));
     shapes_.emplace_back();
   } else {
-    body.wall = free_shapes_.back();
+    body.set_wall(free_shapes_.back());
     free_shapes_.pop_back();
   }
   const DoubleWord2<S> end = detail::stored<S>(spec.end);
-  shape(slot) = {{end.x - body.motion.position.x, end.y - body.motion.position.y}, {}};
+  shape(slot) = {{end.x - body.position().x, end.y - body.position().y}, {}};
   ++walls_in_use_;
   renew_law(slot);
   return slot;
@@ -334,7 +331,7 @@ double BasicWorld<S, Laws>::clearance(Slot a, Slot b, const Which& image) const 
   if constexpr (Laws::kGrows) {
     reach = radius_of(a, now_) + radius_of(b, now_);
   } else {
-    reach = two_sum(at(a).radius, at(b).radius);
+    reach = two_sum(at(a).radius(), at(b).radius());
   }
   return static_cast<double>(to_scalar(distance - reach));
 }
@@ -404,8 +401,8 @@ void BasicWorld<S, Laws>::lay_bare(Slot wall) {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::same_vertex(const WallEnd& a, const WallEnd& b) const {
   using detail::magnitude;
-  const Motion<S>& ma = at(a.wall).motion;
-  const Motion<S>& mb = at(b.wall).motion;
+  const auto& ma = at(a.wall).motion();
+  const auto& mb = at(b.wall).motion();
   const auto same = [](const DoubleWord<S>& x, const DoubleWord<S>& y) {
     return x.hi == y.hi && x.lo == y.lo;
   };
@@ -481,7 +478,7 @@ void BasicWorld<S, Laws>::release(Slot slot) {
       for (const WallEnd& other : links) linked.push_back(other.wall);
     }
     unlink_vertices(slot);
-    free_shapes_.push_back(at(slot).wall);
+    free_shapes_.push_back(at(slot).wall());
     --walls_in_use_;
   }
   forget_passages(slot);
@@ -499,6 +496,7 @@ void BasicWorld<S, Laws>::release(Slot slot) {
   rotations_.erase(slot);
   set_rest_images(slot, {});
   at(slot).id = kNoId;
+  ++at(slot).changes;
   free_slots_.push_back(slot);
   note_digest_stale(slot);
   ordered_valid_ = false;
@@ -593,7 +591,7 @@ Outcome<Done> BasicWorld<S, Laws>::set_velocity(std::span<const VectorFor> veloc
     }
     rebase(slot, now_);
     let_go(slot);
-    at(slot).motion.velocity = detail::stored<S>(target.value);
+    at(slot).set_velocity(detail::stored<S>(target.value));
     renew_law(slot);
     if (at(slot).is_wall()) walls.push_back(slot);
   }
@@ -616,9 +614,9 @@ template <class S, class Laws>
 Outcome<Done> BasicWorld<S, Laws>::apply_impulse(std::span<const VectorFor> impulses) {
   if (auto reject = check_targets(impulses, "impulses")) return *reject;
   const auto after = [this](const VectorFor& target) {
-    const Body<S, Laws>& body = at(slot_of(target.id));
+    const auto& body = at(slot_of(target.id));
     const auto add = [&](const DoubleWord<S>& v, double impulse) {
-      return v + detail::stored<S>(impulse) / DoubleWord<S>{body.mass, S(0)};
+      return v + detail::stored<S>(impulse) / DoubleWord<S>{body.mass(), S(0)};
     };
     const DoubleWord2<S> v = velocity_of(slot_of(target.id), now_);
     return DoubleWord2<S>{add(v.x, target.value.x()), add(v.y, target.value.y())};
@@ -647,7 +645,7 @@ Outcome<Done> BasicWorld<S, Laws>::apply_impulse(std::span<const VectorFor> impu
     const DoubleWord2<S> velocity = after(target);
     rebase(slot_of(target.id), now_);
     let_go(slot_of(target.id));
-    at(slot_of(target.id)).motion.velocity = velocity;
+    at(slot_of(target.id)).set_velocity(velocity);
     renew_law(slot_of(target.id));
   }
   for (const VectorFor& target : impulses) enter(slot_of(target.id));
@@ -665,15 +663,18 @@ void BasicWorld<S, Laws>::nudge(std::uint64_t seed) {
     signs.word(seed);
     signs.word(at(slot).id);
     std::uint64_t bits = signs.digest();
-    const auto off = [&bits](DoubleWord<S>& x) {
+    const auto off = [&bits](const DoubleWord<S>& x) {
       const S unit = std::numeric_limits<S>::epsilon() * x.hi;
-      x = x + ((bits & 1) != 0 ? unit : S(-unit));
+      const bool up = (bits & 1) != 0;
       bits >>= 1;
+      return x + (up ? unit : S(-unit));
     };
-    off(at(slot).motion.position.x);
-    off(at(slot).motion.position.y);
-    off(at(slot).motion.velocity.x);
-    off(at(slot).motion.velocity.y);
+    const auto off_both = [&off](const DoubleWord2<S>& v) {
+      const DoubleWord<S> x = off(v.x);
+      return DoubleWord2<S>{x, off(v.y)};
+    };
+    at(slot).set_position(off_both(at(slot).position()));
+    at(slot).set_velocity(off_both(at(slot).velocity()));
     renew_law(slot);
   }
   for (const Slot slot : ordered_slots()) predict(slot, /*changed=*/true);

@@ -37,8 +37,7 @@ Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
       report.stop = Stop::EventBudget;
       break;
     }
-    const Time<S> instant = queue_.event_of(slot).at;
-    now_ = std::max(now_, instant);
+    go_on_to(queue_.event_of(slot).at);
     if (!process(slot, sink)) {
       report.stop = Stop::Stalled;
       report.stalled = at(slot).id;
@@ -47,9 +46,17 @@ Outcome<AdvanceReport> BasicWorld<S, Laws>::advance_to(const Instant& until,
     ++report.events;
     validate(report.events);
   }
-  if (report.stop == Stop::Reached) now_ = end;
+  if (report.stop == Stop::Reached) go_on_to(end);
   report.collisions = counters_.collisions - collisions_before;
   return report;
+}
+
+/// The present is then, or later.
+template <class S, class Laws>
+[[gnu::always_inline]] inline void BasicWorld<S, Laws>::go_on_to(const Time<S>& instant) {
+  now_ = std::max(now_, instant);
+  if (now_ > sights_.epoch.end) [[unlikely]]
+    begin_epoch();
 }
 
 /// The slot of the next event, which is known exactly; -1 if there is none.
@@ -84,16 +91,17 @@ void BasicWorld<S, Laws>::prefetch_event(Slot slot) const {
 
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_body(Slot slot) const {
-  prefetch_all(at(slot));
+  bodies_.prefetch_body(slot);
   queue_.prefetch_line(slot);
   neighbours_.prefetch_standing(slot);
-  prefetch(&sights_.of_slot[index(slot)]);
 }
 
-/// The same, of what can be told once that has come.
+/// The same for the event after the first, of what can be told once that has come.
 template <class S, class Laws>
-void BasicWorld<S, Laws>::prefetch_cells_of_event(Slot slot) const {
-  if (slot < 0 || !is_worth_asking_ahead(kAskFurtherFrom)) return;
+void BasicWorld<S, Laws>::prefetch_cells_of_second_event() const {
+  if (!is_worth_asking_ahead(kAskFurtherFrom)) return;
+  const Slot slot = queue_.second();
+  if (slot < 0) return;
   const Event<S>& event = queue_.event_of(slot);
   if (event.kind == EventKind::NeighbourRenewal) neighbours_.prefetch_beyond(slot);
   prefetch_cells(slot);
@@ -136,7 +144,7 @@ bool BasicWorld<S, Laws>::has_stalled(const Time<S>& instant) const {
 
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_stale(const Event<S>& event) const {
-  return at(event.partner).id == kNoId || at(event.partner).changes != event.partner_changes;
+  return at(event.partner).changes != event.partner_changes;
 }
 
 // False if the event cannot be processed: the world stops before it.
@@ -179,7 +187,8 @@ bool BasicWorld<S, Laws>::process(Slot slot, CollisionSink* sink) {
     due_ = *found;
   }
   check(instant >= now_, "a contact was scheduled in the past");
-  if (has_stalled(instant) || is_squeezed(due_)) return false;
+  const bool both_give_way = at(due_.a).is_dynamic() && at(due_.b).is_dynamic();
+  if (has_stalled(instant) || (!both_give_way && is_squeezed(due_))) return false;
   count_towards_stall();
   if (has_sights() && is_worth_asking_ahead(kAskAheadFrom)) {
     for (const Slot own : {due_.a, due_.b}) {
@@ -198,7 +207,7 @@ void BasicWorld<S, Laws>::bring_on(Slot slot, const Event<S>& renewal) {
     renew_box(slot, next_margin(slot));
     return predict(slot, /*changed=*/true);
   }
-  prefetch_cells_of_event(queue_.second());
+  prefetch_cells_of_second_event();
   if (!foresee_newcomers(slot, renewal)) predict(slot, /*changed=*/true);
   const Slot straggler = neighbours_.straggler();
   if (straggler < 0) return;
@@ -235,18 +244,18 @@ Vector2 BasicWorld<S, Laws>::normal_towards(Slot from, Slot to, const Which& ima
 
 // A disk between immovable bodies that close in on it bounces without end as the room goes to zero.
 // Told from the stored motions alone: a tiny hop, and neighbours that leave it no way out.
+// REQUIRES: one of the two is immovable.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_squeezed(const Contact& contact) const {
   constexpr double kRoom = 1e-4;  // of the radius; chosen: ten thousand hits into the squeeze
   const Slot disk = at(contact.a).is_dynamic() ? contact.a : contact.b;
   const Slot anvil = disk == contact.a ? contact.b : contact.a;
-  if (at(anvil).is_dynamic()) return false;
-  const double room = kRoom * static_cast<double>(at(disk).radius);
-  if (hop(disk, at(disk).motion.since, now_) > room) return false;
+  const double room = kRoom * static_cast<double>(at(disk).radius());
+  if (hop(disk, at(disk).since(), now_) > room) return false;
   const auto jaw = [&](Slot other, const Which& image) {
     const Vector2 normal = normal_towards(disk, other, image);
     const double closing = growth_of(disk) + growth_of(other);
-    return Jaw{normal, detail::rounded(at(other).motion.velocity).dot(normal) - closing};
+    return Jaw{normal, detail::rounded(at(other).velocity()).dot(normal) - closing};
   };
   const Which image_of_anvil = disk == contact.a ? contact.image : -contact.image;
   const Jaw first = jaw(anvil, image_of_anvil);
@@ -272,7 +281,7 @@ bool BasicWorld<S, Laws>::depends_on_order(Slot shared,
                                            const Which& image,
                                            const Vector2& normal) const {
   const auto weight = [this](Slot slot) {
-    return at(slot).is_dynamic() ? 1 / static_cast<double>(at(slot).mass) : 0.0;
+    return at(slot).is_dynamic() ? 1 / static_cast<double>(at(slot).mass()) : 0.0;
   };
   if (!at(shared).is_dynamic()) return false;
   bool depends = false;
@@ -290,7 +299,7 @@ bool BasicWorld<S, Laws>::depends_on_order(Slot shared,
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::is_about_to_meet(Slot slot) const {
   const Event<S>& next = queue_.event_of(slot);
-  const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
+  const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius());
   if (next.partner < 0 || next.kind == EventKind::NeighbourRenewal ||
       hop(slot, now_, next.at) > tiny)
     return false;
@@ -311,7 +320,7 @@ bool BasicWorld<S, Laws>::is_simultaneous(const Contact& contact,
                                           const Time<S>& before_b) const {
   const auto crowded = [this](Slot slot, const Time<S>& before) {
     if (!at(slot).is_dynamic()) return false;
-    const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius);
+    const double tiny = kSimultaneousHop * static_cast<double>(at(slot).radius());
     if (hop(slot, before, now_) <= tiny) return true;
     return is_about_to_meet(slot);
   };
@@ -339,13 +348,13 @@ template <class S, class Laws>
 
 template <class S, class Laws>
 void BasicWorld<S, Laws>::rebase(Slot slot, const Time<S>& instant) {
-  Body<S, Laws>& body = at(slot);
+  auto&& body = at(slot);
   turn(slot, instant);
   const DoubleWord2<S> position = position_of(slot, instant);
   if constexpr (Laws::kGrows) body.grown = radius_of(slot, instant);
-  if constexpr (Laws::kCurved) body.motion.velocity = velocity_of(slot, instant);
-  body.motion.position = position;
-  body.motion.since = instant;
+  if constexpr (Laws::kCurved) body.set_velocity(velocity_of(slot, instant));
+  body.set_position(position);
+  body.set_since(instant);
   ++body.changes;
   if (!all_pairs()) neighbours_.note_event(slot);
   begin_motion(slot, instant);
@@ -357,18 +366,18 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::resolve(const Contact& contact,
                                   const Time<S>& instant,
                                   CollisionSink* sink) {
-  Body<S, Laws>& a = at(contact.a);
-  Body<S, Laws>& b = at(contact.b);
-  const Time<S> before_a = a.motion.since;
-  const Time<S> before_b = b.motion.since;
+  auto&& a = at(contact.a);
+  auto&& b = at(contact.b);
+  const Time<S> before_a = a.since();
+  const Time<S> before_b = b.since();
   const ContactOutcome outcome = impulse_of(contact, instant);
   const auto kick = [&](Slot slot, const DoubleWord2<S>& delta, const DoubleWord<S>& spin) {
-    Body<S, Laws>& body = at(slot);
+    auto&& body = at(slot);
     if (!body.is_dynamic()) return;
     rebase(slot, instant);
     let_go(slot);
     note_contact(slot, spin, instant);
-    body.motion.velocity = body.motion.velocity + delta;
+    body.set_velocity(body.velocity() + delta);
     renew_law(slot);
   };
   kick(contact.a, outcome.impulse.delta_a, outcome.spins.a);
@@ -378,7 +387,7 @@ void BasicWorld<S, Laws>::resolve(const Contact& contact,
   }
   ++counters_.collisions;
   if (outcome.regularised) ++counters_.regularised;
-  prefetch_cells_of_event(queue_.second());
+  prefetch_cells_of_second_event();
   if (a.is_dynamic()) predict(contact.a, /*changed=*/true);
   if (b.is_dynamic()) predict(contact.b, /*changed=*/true);
   if (sink == nullptr) return;
@@ -395,8 +404,8 @@ Collision BasicWorld<S, Laws>::describe(const Contact& contact,
                                         const Time<S>& instant,
                                         const ContactOutcome& outcome) const {
   const PairImpulse<S>& impulse = outcome.impulse;
-  const Body<S, Laws>& a = at(contact.a);
-  const Body<S, Laws>& b = at(contact.b);
+  const auto& a = at(contact.a);
+  const auto& b = at(contact.b);
   const DoubleWord2<S> centre = position_of(contact.a, instant);
   const Radius radius = radius_of(contact.a, instant);
   Collision collision;
@@ -412,8 +421,8 @@ Collision BasicWorld<S, Laws>::describe(const Contact& contact,
       shown({centre.x + radius * impulse.normal_x, centre.y + radius * impulse.normal_y});
   collision.impulse = static_cast<double>(impulse.impulse);
   collision.approach_speed = static_cast<double>(impulse.approach_speed);
-  collision.velocity_a = detail::rounded(a.motion.velocity);
-  collision.velocity_b = detail::rounded(b.motion.velocity);
+  collision.velocity_a = detail::rounded(a.velocity());
+  collision.velocity_b = detail::rounded(b.velocity());
   collision.spin_a = rotation_of(contact.a).spin;
   collision.spin_b = rotation_of(contact.b).spin;
   return collision;

@@ -363,15 +363,15 @@ bool BasicWorld<S, Laws>::is_in_bounds([[maybe_unused]] Slot slot) const {
   if constexpr (!Laws::kPlain) {
     if (!is_periodic()) return true;
     constexpr double kFaster = 1024;  // chosen: what collisions make of the fastest command
-    const Body<S, Laws>& body = at(slot);
-    if (space_.is_beyond(detail::rounded(body.motion.position), kPeriodsMax<S>)) return false;
+    const auto& body = at(slot);
+    if (space_.is_beyond(detail::rounded(body.position()), kPeriodsMax<S>)) return false;
     if (space_.is_beyond(detail::rounded(position_of(slot, now_)), kPeriodsMax<S>)) return false;
-    if (!detail::within(detail::rounded(body.motion.velocity), kFaster * speed_max())) return false;
+    if (!detail::within(detail::rounded(body.velocity()), kFaster * speed_max())) return false;
     const RestImages images = rest_images(slot);
     if (!is_near(images.support) || !is_near(images.second_support) || !is_near(images.slid_off)) {
       return false;
     }
-    if (!body.is_wall()) return 2 * static_cast<double>(body.radius) < space_.smallest();
+    if (!body.is_wall()) return 2 * static_cast<double>(body.radius()) < space_.smallest();
     return !space_.is_beyond(detail::rounded(shape(slot).edge), kWallPeriodsMax);
   } else {
     return true;

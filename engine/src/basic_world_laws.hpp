@@ -18,7 +18,7 @@ namespace stoss::engine {
 template <class S, class Laws>
 [[gnu::always_inline]] inline DoubleWord2<S> BasicWorld<S, Laws>::position_of(
     Slot slot, const Time<S>& instant) const {
-  const Motion<S>& motion = at(slot).motion;
+  const auto& motion = at(slot).motion();
   if constexpr (Laws::kDragged) {
     return flight_of(slot, instant).position;
   } else if constexpr (Laws::kCurved) {
@@ -31,7 +31,7 @@ template <class S, class Laws>
 template <class S, class Laws>
 [[gnu::always_inline]] inline DoubleWord2<S> BasicWorld<S, Laws>::velocity_of(
     Slot slot, [[maybe_unused]] const Time<S>& instant) const {
-  const Motion<S>& motion = at(slot).motion;
+  const auto& motion = at(slot).motion();
   if constexpr (Laws::kDragged) {
     return flight_of(slot, instant).velocity;
   } else if constexpr (Laws::kCurved) {
@@ -44,16 +44,16 @@ template <class S, class Laws>
 /// Under drag; walls, kinematic and static disks do not feel it.
 template <class S, class Laws>
 Flight<S> BasicWorld<S, Laws>::flight_of(Slot slot, const Time<S>& instant) const {
-  const Body<S, Laws>& body = at(slot);
-  if (!body.is_dynamic()) return {position_at(body.motion, instant), body.motion.velocity};
-  return flight_at(body.motion, body.acceleration, laws_.drag, instant);
+  const auto& body = at(slot);
+  if (!body.is_dynamic()) return {position_at(body.motion(), instant), body.velocity()};
+  return flight_at(body.motion(), body.acceleration, laws_.drag, instant);
 }
 
 /// What the medium's drag is to a body that keeps its velocity: m V, to be held against.
 template <class S, class Laws>
 DoubleWord2<S> BasicWorld<S, Laws>::wind_on([[maybe_unused]] Slot slot) const {
   if constexpr (Laws::kDragged) {
-    return at(slot).motion.velocity * laws_.drag;
+    return at(slot).velocity() * laws_.drag;
   } else {
     return {};
   }
@@ -74,10 +74,10 @@ template <class S, class Laws>
 auto BasicWorld<S, Laws>::radius_of(Slot slot, [[maybe_unused]] const Time<S>& instant) const
     -> Radius {
   if constexpr (Laws::kGrows) {
-    if (!at(slot).is_disk()) return {at(slot).radius, S(0)};
-    return grown_by(at(slot).grown, laws_.growth, at(slot).motion.since, instant);
+    if (!at(slot).is_disk()) return {at(slot).radius(), S(0)};
+    return grown_by(at(slot).grown, laws_.growth, at(slot).since(), instant);
   } else {
-    return at(slot).radius;
+    return at(slot).radius();
   }
 }
 
@@ -87,7 +87,7 @@ double BasicWorld<S, Laws>::radius_now(Slot slot) const {
   if constexpr (Laws::kGrows) {
     return static_cast<double>(to_scalar(radius_of(slot, now_)));
   } else {
-    return static_cast<double>(at(slot).radius);
+    return static_cast<double>(at(slot).radius());
   }
 }
 
@@ -109,7 +109,7 @@ auto BasicWorld<S, Laws>::reach_between(Slot a,
   if constexpr (Laws::kGrows) {
     return {radius_of(a, instant) + radius_of(b, instant), two_sum(laws_.growth, laws_.growth)};
   } else {
-    return two_sum(at(a).radius, at(b).radius);
+    return two_sum(at(a).radius(), at(b).radius());
   }
 }
 
@@ -120,7 +120,7 @@ auto BasicWorld<S, Laws>::radius_in_contact(Slot disk,
   if constexpr (Laws::kGrows) {
     return Reach{radius_of(disk, instant), {laws_.growth, S(0)}};
   } else {
-    return at(disk).radius;
+    return at(disk).radius();
   }
 }
 
@@ -129,11 +129,11 @@ Glance BasicWorld<S, Laws>::glance_of(Slot slot) const {
   if constexpr (Laws::kDragged) {
     if (at(slot).is_dynamic())
       return dragged_glance<S>(
-          at(slot).motion, at(slot).acceleration, static_cast<double>(laws_.drag), now_);
+          at(slot).motion(), at(slot).acceleration, static_cast<double>(laws_.drag), now_);
   }
-  Glance g = glance<S>(at(slot).motion, now_);
+  Glance g = glance<S>(at(slot).motion(), now_);
   if constexpr (Laws::kCurved && !Laws::kDragged) {
-    const double elapsed = rough_seconds(now_, at(slot).motion.since);
+    const double elapsed = rough_seconds(now_, at(slot).since());
     const auto add = [&](const DoubleWord<S>& acceleration, double& low, double& velocity) {
       const double gained = static_cast<double>(acceleration.hi) * elapsed;
       low += 0.5 * gained * elapsed;
@@ -184,7 +184,7 @@ S BasicWorld<S, Laws>::valid_for(Slot a, Slot b, const Time<S>& reference) const
   if constexpr (Laws::kCurved) {
     const auto left = [&](Slot slot) {
       const S whole = at(slot).moves_for.hi;
-      return whole - difference<S>(reference, at(slot).motion.since).hi;
+      return whole - difference<S>(reference, at(slot).since()).hi;
     };
     return std::min(left(a), left(b));
   } else {
@@ -202,7 +202,7 @@ void BasicWorld<S, Laws>::renew_law(Slot slot) {
 /// What pulls at the body, and for how long.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_acceleration(Slot slot) {
-  Body<S, Laws>& body = at(slot);
+  auto&& body = at(slot);
   body.moves_for = {std::numeric_limits<S>::infinity(), S(0)};
   body.acceleration = wind_on(slot);
   if (!body.is_dynamic()) return;
@@ -212,7 +212,7 @@ void BasicWorld<S, Laws>::renew_acceleration(Slot slot) {
   }
   body.acceleration = laws_.gravity;
   if (!(laws_.deceleration > S(0))) return;
-  const Slowing<S> slow = slowing<S>(body.motion.velocity, laws_.deceleration);
+  const Slowing<S> slow = slowing<S>(body.velocity(), laws_.deceleration);
   body.acceleration = slow.acceleration;
   body.moves_for = slow.moves_for;
 }
@@ -231,9 +231,9 @@ std::optional<Event<S>> BasicWorld<S, Laws>::own_event(Slot slot) const {
 /// Its stop, or the end of its slide.
 template <class S, class Laws>
 std::optional<Event<S>> BasicWorld<S, Laws>::law_change(Slot slot) const {
-  const Body<S, Laws>& body = at(slot);
+  const auto& body = at(slot);
   if (!(body.moves_for.hi < std::numeric_limits<S>::infinity())) return std::nullopt;
-  const auto instant = later_by(body.motion.since, body.moves_for.hi, body.moves_for.lo);
+  const auto instant = later_by(body.since(), body.moves_for.hi, body.moves_for.lo);
   if (!instant) return std::nullopt;
   Event<S> event;
   event.at = *instant;
@@ -243,7 +243,7 @@ std::optional<Event<S>> BasicWorld<S, Laws>::law_change(Slot slot) const {
 
 template <class S, class Laws>
 void BasicWorld<S, Laws>::process_own_event(Slot slot, const Time<S>& instant) {
-  Body<S, Laws>& body = at(slot);
+  auto&& body = at(slot);
   if (body.support != kNoId) {  // the end of the wall
     rebase(slot, instant);
     const Id wall = body.support;
@@ -256,9 +256,9 @@ void BasicWorld<S, Laws>::process_own_event(Slot slot, const Time<S>& instant) {
     return;
   }
   turn(slot, instant);
-  body.motion.position = stopping_place<S>(body.motion, body.moves_for);
-  body.motion.velocity = {};
-  body.motion.since = instant;
+  body.set_position(stopping_place<S>(body.motion(), body.moves_for));
+  body.set_velocity({});
+  body.set_since(instant);
   ++body.changes;
   begin_motion(slot, instant);
   note_digest_stale(slot);
@@ -271,7 +271,7 @@ void BasicWorld<S, Laws>::process_own_event(Slot slot, const Time<S>& instant) {
 template <class S, class Laws>
 double BasicWorld<S, Laws>::potential_energy(Slot slot) const {
   const DoubleWord<S> height = dot(position_of(slot, now_), laws_.gravity);
-  return -static_cast<double>(to_scalar(height * at(slot).mass));
+  return -static_cast<double>(to_scalar(height * at(slot).mass()));
 }
 
 template <class S, class Laws>
@@ -301,11 +301,11 @@ void BasicWorld<S, Laws>::turn(Slot slot, const Time<S>& instant) {
     if (rotations_.empty()) return;
     const auto rotation = rotations_.find(slot);
     if (rotation == rotations_.end()) return;
-    const auto since = to_instant(at(slot).motion.since);
+    const auto since = to_instant(at(slot).since());
     Rotation& r = rotation->second;
     r.angle = turned(r.angle, r.spin, since, to_instant(instant));
   } else {
-    const auto since = to_instant(at(slot).motion.since);
+    const auto since = to_instant(at(slot).since());
     const Rotation r = rotation_of(slot);
     at(slot).angle = turned(r.angle, r.spin, since, to_instant(instant));
   }
@@ -314,15 +314,18 @@ void BasicWorld<S, Laws>::turn(Slot slot, const Time<S>& instant) {
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::impulse_of(const Contact& contact, const Time<S>& instant) const
     -> ContactOutcome {
-  const Body<S, Laws>& a = at(contact.a);
-  const Body<S, Laws>& b = at(contact.b);
+  const auto& a = at(contact.a);
+  const auto& b = at(contact.b);
   const DoubleWord2<S> velocity = velocity_of(contact.b, instant) - velocity_of(contact.a, instant);
   if constexpr (Laws::kPlain) {
-    return {
-        elastic_impulse<S>(
-            contact_vector(contact), velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic()),
-        {},
-        false};
+    return {elastic_impulse<S>(contact_vector(contact),
+                               velocity,
+                               a.mass(),
+                               !a.is_dynamic(),
+                               b.mass(),
+                               !b.is_dynamic()),
+            {},
+            false};
   } else {
     return lossy_impulse(contact, velocity, instant);
   }
@@ -348,8 +351,8 @@ template <class S, class Laws>
 auto BasicWorld<S, Laws>::lossy_impulse(const Contact& contact,
                                         const DoubleWord2<S>& velocity,
                                         const Time<S>& instant) const -> ContactOutcome {
-  const Body<S, Laws>& a = at(contact.a);
-  const Body<S, Laws>& b = at(contact.b);
+  const auto& a = at(contact.a);
+  const auto& b = at(contact.b);
   S restitution = b.is_wall() ? laws_.wall_restitution : laws_.disk_restitution;
   ContactOutcome outcome;
   if (restitution < S(1) && collided_lately(a, instant, b)) {
@@ -359,20 +362,20 @@ auto BasicWorld<S, Laws>::lossy_impulse(const Contact& contact,
   const DoubleWord2<S> p = contact_vector(contact);
   outcome.impulse = restitution_impulse<S>(p,
                                            surface_velocity(contact, p, velocity),
-                                           a.mass,
+                                           a.mass(),
                                            !a.is_dynamic(),
-                                           b.mass,
+                                           b.mass(),
                                            !b.is_dynamic(),
                                            restitution);
   if constexpr (Laws::kCurved) {
     if (is_last_bounce(contact, outcome.impulse, restitution)) {
       outcome.is_last_bounce = true;
       outcome.impulse = restitution_impulse<S>(
-          p, velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic(), S(0));
+          p, velocity, a.mass(), !a.is_dynamic(), b.mass(), !b.is_dynamic(), S(0));
     } else if (const S hop = hop_speed(contact, outcome.impulse, restitution); hop > S(0)) {
       outcome.regularised = true;
       outcome.impulse =
-          hop_impulse<S>(p, velocity, a.mass, !a.is_dynamic(), b.mass, !b.is_dynamic(), hop);
+          hop_impulse<S>(p, velocity, a.mass(), !a.is_dynamic(), b.mass(), !b.is_dynamic(), hop);
     }
   }
   if (laws_.is_rough) {
@@ -380,8 +383,8 @@ auto BasicWorld<S, Laws>::lossy_impulse(const Contact& contact,
         add_rough_impulse<S>(outcome.impulse,
                              p,
                              velocity,
-                             {a.mass, a.radius, !a.is_dynamic(), a.spin},
-                             {b.mass, b.radius, !b.is_dynamic(), b.spin},
+                             {a.mass(), a.radius(), !a.is_dynamic(), a.spin},
+                             {b.mass(), b.radius(), !b.is_dynamic(), b.spin},
                              {restitution, laws_.tangential_restitution, laws_.friction});
   }
   return outcome;
@@ -390,11 +393,9 @@ auto BasicWorld<S, Laws>::lossy_impulse(const Contact& contact,
 // The rule of contact durations: has one of the two dynamic disks met another body less than that
 // ago?
 template <class S, class Laws>
-bool BasicWorld<S, Laws>::collided_lately(const Body<S, Laws>& a,
-                                          const Time<S>& instant,
-                                          const Body<S, Laws>& b) const {
+bool BasicWorld<S, Laws>::collided_lately(ConstBody a, const Time<S>& instant, ConstBody b) const {
   if (!(laws_.contact_duration > S(0))) return false;
-  const auto lately = [&](const Body<S, Laws>& body) {
+  const auto lately = [&](ConstBody body) {
     return body.is_dynamic() &&
            difference<S>(instant, body.last_contact).hi < laws_.contact_duration;
   };
@@ -424,12 +425,12 @@ bool BasicWorld<S, Laws>::order_matters_between(
 
 /// Of a disk that turns with moment of inertia m r^2 / 2, J.
 template <class S, class Laws>
-DoubleWord<S> BasicWorld<S, Laws>::twice_spin_energy(const Body<S, Laws>& body) const {
+DoubleWord<S> BasicWorld<S, Laws>::twice_spin_energy(ConstBody body) const {
   if constexpr (Laws::kPlain) {
     return {};
   } else {
     if (!laws_.is_rough) return {};
-    return square(body.spin * body.radius) * body.mass * S(0.5);
+    return square(body.spin * body.radius()) * body.mass() * S(0.5);
   }
 }
 
@@ -455,7 +456,7 @@ void BasicWorld<S, Laws>::write_body_part(Sink& sink, Slot slot, const Effects& 
     if constexpr (Laws::kGrows) {
       write_scalar(sink, at(slot).grown);
     } else {
-      write_scalar(sink, DoubleWord<S>{at(slot).radius, S(0)});
+      write_scalar(sink, DoubleWord<S>{at(slot).radius(), S(0)});
     }
   }
   if (laws == LawsKind::Accelerated || laws == LawsKind::Dragged) {

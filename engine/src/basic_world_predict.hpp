@@ -57,13 +57,13 @@ bool BasicWorld<S, Laws>::is_far_from_line(Slot wall, const Aabb& box) const {
 
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::holds_prediction(Slot holder, Slot other) const {
-  const Body<S, Laws>& h = at(holder);
-  const Body<S, Laws>& o = at(other);
+  const auto& h = at(holder);
+  const auto& o = at(other);
   if constexpr (!Laws::kPlain) {
     if (is_zone(holder) || is_zone(other)) return is_zone(other);
   }
   if (h.is_dynamic() != o.is_dynamic()) return h.is_dynamic();
-  return !(h.radius > S(kHolderRatioMax) * o.radius);
+  return !(h.radius() > S(kHolderRatioMax) * o.radius());
 }
 
 template <class S, class Laws>
@@ -114,7 +114,7 @@ template <class S, class Laws>
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::disk_disk_contact_of(Slot a, Slot b, const Which& image) const
     -> std::optional<Contact> {
-  const Time<S> reference = std::max(at(a).motion.since, at(b).motion.since);
+  const Time<S> reference = std::max(at(a).since(), at(b).since());
   const Relative relative = relative_motion(b, a, reference, image);
   const auto after =
       Laws::pair_contact(relative, reach_between(a, b, reference), valid_for(a, b, reference));
@@ -162,9 +162,9 @@ bool BasicWorld<S, Laws>::hidden_by_faces(const Relative& from_vertex,
 template <class S, class Laws>
 auto BasicWorld<S, Laws>::disk_wall_contact_of(Slot disk, Slot wall, const Which& image) const
     -> std::optional<Contact> {
-  const Body<S, Laws>& d = at(disk);
-  const Body<S, Laws>& w = at(wall);
-  const Time<S> reference = std::max(d.motion.since, w.motion.since);
+  const auto& d = at(disk);
+  const auto& w = at(wall);
+  const Time<S> reference = std::max(d.since(), w.since());
   const Relative from_start = relative_motion(disk, wall, reference, -image);
   const S valid = valid_for(disk, wall, reference);
   const auto radius = radius_in_contact(disk, reference);
@@ -278,6 +278,7 @@ double BasicWorld<S, Laws>::time_in_box(Slot slot, const Glance& here) const {
   };
   leave(moved_x, here.vx);
   leave(moved_y, here.vy);
+  if constexpr (!Laws::kCurved) after = std::min(after, kLongestWait);
   return std::max(after, 0.0);
 }
 
@@ -303,8 +304,8 @@ bool BasicWorld<S, Laws>::may_meet(Slot slot,
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::may_meet_at(
     Slot slot, const Glance& here, Slot other, const Glance& there, double horizon) const {
-  const Body<S, Laws>& own = at(slot);
-  const Body<S, Laws>& theirs = at(other);
+  const auto& own = at(slot);
+  const auto& theirs = at(other);
   double bend = 0;  // by how far accelerations can lead off the straight line, or disks grow, m
   if (fly_straight(slot, other)) {
     if constexpr (Laws::kDragged)
@@ -385,7 +386,7 @@ Aabb BasicWorld<S, Laws>::tight_box(Slot slot) const {
 
 template <class S, class Laws>
 Aabb BasicWorld<S, Laws>::tight_box(Slot slot, const Glance& here) const {
-  const Body<S, Laws>& body = at(slot);
+  const auto& body = at(slot);
   const double x = here.x + here.x_low;
   const double y = here.y + here.y_low;
   const double r = radius_now(slot) * (1 + kScreenSlack<S>)+here.error;
@@ -406,7 +407,8 @@ double BasicWorld<S, Laws>::smallest_margin(Slot slot) const {
   const DoubleWord2<S> v = velocity_of(slot, now_);
   const double speed = std::abs(static_cast<double>(v.x.hi)) +
                        std::abs(static_cast<double>(v.y.hi)) + growth_of(slot);
-  return std::max(speed * kShortestCrossing, static_cast<double>(at(slot).radius) * kPartOfRadius);
+  return std::max(speed * kShortestCrossing,
+                  static_cast<double>(at(slot).radius()) * kPartOfRadius);
 }
 
 /// Of a body that comes in. A zone's box is never renewed, and needs no room to move.
@@ -415,7 +417,7 @@ double BasicWorld<S, Laws>::first_margin(Slot slot) const {
   if constexpr (!Laws::kPlain) {
     if (is_zone(slot)) return 0;
   }
-  return static_cast<double>(at(slot).radius);
+  return static_cast<double>(at(slot).radius());
 }
 
 template <class S, class Laws>

@@ -33,7 +33,7 @@ const std::vector<Slot>& BasicWorld<S, Laws>::ordered_slots() const {
 
 template <class S, class Laws>
 BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {
-  const Body<S, Laws>& body = at(slot);
+  const auto& body = at(slot);
   BodyState state;
   state.id = body.id;
   state.kind = kind_of(body.type);
@@ -43,8 +43,7 @@ BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {
   state.radius = radius_now(slot);
   if (!Laws::kPlain || !rotations_.empty()) {
     const Rotation rotation = rotation_of(slot);
-    state.angle =
-        turned(rotation.angle, rotation.spin, to_instant(body.motion.since), state.instant);
+    state.angle = turned(rotation.angle, rotation.spin, to_instant(body.since()), state.instant);
     state.spin = rotation.spin;
   }
   return state;
@@ -52,7 +51,7 @@ BodyState BasicWorld<S, Laws>::state_of(Slot slot) const {
 
 template <class S, class Laws>
 WallState BasicWorld<S, Laws>::wall_of(Slot slot) const {
-  const DoubleWord2<S>& velocity = at(slot).motion.velocity;
+  const DoubleWord2<S>& velocity = at(slot).velocity();
   const DoubleWord2<S>& edge = shape(slot).edge;
   const DoubleWord2<S> start = position_of(slot, now_);
   if constexpr (Laws::kPlain) {
@@ -100,12 +99,12 @@ Conserved BasicWorld<S, Laws>::conserved() const {
   DoubleWord2<S> momentum{};
   double potential = 0;
   for (const Slot slot : ordered_slots()) {
-    const Body<S, Laws>& body = at(slot);
+    const auto& body = at(slot);
     if (!body.is_dynamic()) continue;
     const DoubleWord2<S> v = velocity_of(slot, now_);
-    energy = energy + square_norm(v) * body.mass + twice_spin_energy(body);
+    energy = energy + square_norm(v) * body.mass() + twice_spin_energy(body);
     if constexpr (Laws::kCurved) potential += potential_energy(slot);
-    momentum = {momentum.x + v.x * body.mass, momentum.y + v.y * body.mass};
+    momentum = {momentum.x + v.x * body.mass(), momentum.y + v.y * body.mass()};
   }
   return {0.5 * static_cast<double>(to_scalar(energy)), potential, detail::rounded(momentum)};
 }
@@ -289,7 +288,7 @@ template <class S, class Laws>
 Outcome<MotionRecord> BasicWorld<S, Laws>::motion(Id id) const {
   const Slot found = find_slot(id);
   if (found < 0 || is_zone(found)) return not_found(id);
-  MotionRecord record = to_record(id, at(found).motion);
+  MotionRecord record = to_record(id, at(found).motion());
   const Rotation rotation = rotation_of(found);
   record.angle = rotation.angle;
   record.spin = rotation.spin;
@@ -314,7 +313,7 @@ template <class S, class Laws>
 Outcome<BodyRecord> BasicWorld<S, Laws>::body(Id id) const {
   const Slot found = find_slot(id);
   if (found < 0 || is_zone(found)) return not_found(id);
-  const Body<S, Laws>& b = at(found);
+  const auto& b = at(found);
   BodyRecord record;
   record.id = id;
   record.is_wall = b.is_wall();
@@ -324,7 +323,7 @@ Outcome<BodyRecord> BasicWorld<S, Laws>::body(Id id) const {
   } else {
     record.kind = kind_of(b.type);
     record.radius = radius_now(found);
-    record.mass = static_cast<double>(b.mass);
+    record.mass = static_cast<double>(b.mass());
   }
   return record;
 }

@@ -115,7 +115,7 @@ auto BasicWorld<S, Laws>::finds_hold(const Contact& contact) const -> std::optio
   for_each_neighbour_image(disk, [&](Slot other, const Which& image) {
     if ((other == first && image == image_of_first) || at(other).is_dynamic()) return;
     if (hold && at(other).id > hold->id) return;
-    if (clearance(disk, other, image) > kTouching * static_cast<double>(at(disk).radius)) return;
+    if (clearance(disk, other, image) > kTouching * static_cast<double>(at(disk).radius())) return;
     const DoubleWord2<S> apart = velocity_of(first, now_) - velocity_of(other, now_);
     if (detail::sum_norm(apart) > S(0)) return;
     const Vector2 up_from_other = -normal_towards(disk, other, image);
@@ -138,7 +138,7 @@ void BasicWorld<S, Laws>::settle_down(const Contact& contact) {
     const bool is_another = hold->id != kNoId;
     at(disk).second_support = is_another ? hold->id : at(support).id;
     images.second_support = is_another ? hold->image : images.support;
-    at(disk).motion.velocity = velocity_of(support, now_);
+    at(disk).set_velocity(velocity_of(support, now_));
   }
   set_rest_images(disk, images);
   renew_law(disk);
@@ -147,15 +147,15 @@ void BasicWorld<S, Laws>::settle_down(const Contact& contact) {
 /// The acceleration of a disk that rests, and for how long it has it.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_rest(Slot slot) {
-  Body<S, Laws>& body = at(slot);
+  auto&& body = at(slot);
   const Slot support = slot_of(body.support);
   body.acceleration = wind_on(support);
   if (body.second_support != kNoId) return;
   const DoubleWord2<S>& edge = shape(support).edge;
   const DoubleWord2<S> pull = pull_along(pull_towards(support), edge);
-  const DoubleWord2<S> from_start = apart(
-      body.motion.position, position_of(support, body.motion.since), -rest_images(slot).support);
-  const DoubleWord2<S> slip = body.motion.velocity - velocity_of(support, body.motion.since);
+  const DoubleWord2<S> from_start =
+      apart(body.position(), position_of(support, body.since()), -rest_images(slot).support);
+  const DoubleWord2<S> slip = body.velocity() - velocity_of(support, body.since());
   if constexpr (Laws::kDragged) {
     body.acceleration = body.acceleration + pull;
     body.moves_for = slide_under_drag_lasts(from_start, slip, pull, edge, laws_.drag);
@@ -169,7 +169,7 @@ void BasicWorld<S, Laws>::renew_rest(Slot slot) {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::has_sound_supports([[maybe_unused]] Slot slot) const {
   if constexpr (Laws::kCurved) {
-    const Body<S, Laws>& body = at(slot);
+    const auto& body = at(slot);
     const auto is_fixed = [this](Id id) {
       const Slot found = find_slot(id);
       return found >= 0 && !at(found).is_dynamic();

@@ -33,7 +33,7 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
   if (changed && neighbours_.is_overworked(slot)) renew_box(slot, next_margin(slot));
   const SightClock clock = read_sight_clock();
-  const Sight& own = sights_.of_slot[index(slot)];
+  const Seen& own = bodies_.sight(slot);
   const double renewal = time_to_renewal(slot, own, clock);
   Foresight ahead;
   if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
@@ -56,7 +56,7 @@ template <class S, class Laws>
 bool BasicWorld<S, Laws>::foresee_newcomers(Slot slot, const Event<S>& crossing) {
   if (!(crossing.until_guess >= 0) || !has_sights()) return false;
   const SightClock clock = read_sight_clock();
-  const double smallest_held = sights_.of_slot[index(slot)].size * (1.0 / kHolderRatioMax);
+  const double smallest_held = bodies_.sight(slot).size * (1.0 / kHolderRatioMax);
   Foresight ahead;
   look_at_all(slot, neighbours_.newcomers(slot), smallest_held, clock, ahead);
   if (ahead.has_others) return false;
@@ -64,7 +64,7 @@ bool BasicWorld<S, Laws>::foresee_newcomers(Slot slot, const Event<S>& crossing)
   const auto first = static_cast<double>(crossing.until_guess);
   ahead.note(crossing.partner, first);
   ahead.note(crossing.partner, first + static_cast<double>(crossing.clear_for));
-  schedule(slot, ahead, time_to_renewal(slot, sights_.of_slot[index(slot)], clock));
+  schedule(slot, ahead, time_to_renewal(slot, bodies_.sight(slot), clock));
   return true;
 }
 
@@ -72,7 +72,7 @@ bool BasicWorld<S, Laws>::foresee_newcomers(Slot slot, const Event<S>& crossing)
 template <class S, class Laws>
 void BasicWorld<S, Laws>::look_at_listed(
     Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead) {
-  const Sight& own = sights_.of_slot[index(slot)];
+  const Seen& own = bodies_.sight(slot);
   const auto list = neighbours_.of(slot);
   double smallest_held = own.size * (1.0 / kHolderRatioMax);
   bool is_alone = false;  // in how it moves
@@ -99,7 +99,7 @@ template <class S, class Laws>
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const bool is_alone = smallest == kNever;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Sight& theirs = sights_.of_slot[index(list[i])];
+    const Seen& theirs = bodies_.sight(list[i]);
     if (!is_passed_over(theirs, smallest)) continue;
     if (is_alone || !is_like(theirs)) {
       look_at_unlike(slot, list[i], changed, clock, renewal, ahead);
@@ -128,7 +128,7 @@ void BasicWorld<S, Laws>::look_at_all(Slot slot,
 template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_sights(Slot slot) const {
   const auto all = neighbours_.of(slot);
-  for (const Slot other : all) prefetch(&sights_.of_slot[index(other)]);
+  for (const Slot other : all) bodies_.prefetch_sight(other);
   constexpr std::size_t kMany = 24;  // of which most are much smaller, and are told of a change
   if (all.size() < kMany) return;
   for (const Slot other : all) queue_.prefetch_line(other);
@@ -168,7 +168,7 @@ void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::see_each_other(Slot a, Slot b) const {
   if (Laws::kCurved || is_periodic()) {
-    return is_like(sights_.of_slot[index(a)]) && is_like(sights_.of_slot[index(b)]);
+    return is_like(bodies_.sight(a)) && is_like(bodies_.sight(b));
   }
   return at(a).is_disk() && at(b).is_disk();
 }
@@ -182,7 +182,7 @@ SoonestTwo BasicWorld<S, Laws>::soonest_of(Slot slot,
   const auto soonest = [&](const auto& common) {
     return soonest_contacts(slot,
                             list,
-                            sights_.of_slot,
+                            bodies_.sights(),
                             smallest,
                             clock.now,
                             kScreenSlack<S>,
@@ -201,8 +201,7 @@ SoonestTwo BasicWorld<S, Laws>::soonest_of(Slot slot,
 template <class S, class Laws>
 double BasicWorld<S, Laws>::soonest_seen(Slot a, Slot b, const SightClock& clock) const {
   const auto soonest = [&](const auto& common) {
-    return soonest_contact(
-        sights_.of_slot[index(a)], sights_.of_slot[index(b)], clock.now, kScreenSlack<S>, common);
+    return soonest_contact(bodies_.sight(a), bodies_.sight(b), clock.now, kScreenSlack<S>, common);
   };
   if constexpr (!Laws::kPlain) {
     if (is_periodic()) {
@@ -220,19 +219,19 @@ Event<S> BasicWorld<S, Laws>::guess_of(const Foresight& ahead) const {
   if (ahead.standing != nullptr && ahead.standing->partner == ahead.partner) {
     event.partner = ahead.partner;
     event.partner_changes = ahead.standing->partner_changes;
-    event.partner_id = ahead.standing->partner_id;
   } else {
     name_partner(event, ahead.partner);
   }
   return event;
 }
 
-/// With its count of changes and its id, as they are now.
+/// With its count of changes as it is now. Not with its id, which lies far from the sight: it is
+/// asked for where two events come at one instant, and there guesses and renewals may come in any
+/// order.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::name_partner(Event<S>& event, Slot partner) const {
   event.partner = partner;
   event.partner_changes = at(partner).changes;
-  event.partner_id = at(partner).id;
 }
 
 // Makes the first of what lies ahead the body's event.
@@ -273,7 +272,7 @@ Event<S> BasicWorld<S, Laws>::guess_after(double renewal, const Foresight& ahead
 /// less; infinity if it never does.
 template <class S, class Laws>
 double BasicWorld<S, Laws>::time_to_renewal(Slot slot,
-                                            const Sight& own,
+                                            const Seen& own,
                                             const SightClock& clock) const {
   constexpr double kEarly = 1 - 1e-6;
   if (Laws::kCurved || is_periodic()) {
@@ -296,7 +295,10 @@ double BasicWorld<S, Laws>::time_to_renewal(Slot slot,
     if constexpr (Laws::kGrows) return way / (std::abs(v) + growth);
     return way / std::abs(v);
   };
-  return std::max(0.0, std::min(after(moved_x, own.vx), after(moved_y, own.vy)));
+  const double soonest = std::min(after(moved_x, own.vx), after(moved_y, own.vy));
+  if (!(soonest < kLongestWait)) [[unlikely]]
+    return own.vx == 0 && own.vy == 0 ? soonest : kLongestWait;
+  return std::max(0.0, soonest);
 }
 
 /// The same far from the origin, where a sight is too coarse.
@@ -354,7 +356,7 @@ void BasicWorld<S, Laws>::join(Slot holder, Slot changed, float later) {
   if (theirs.kind == EventKind::NeighbourRenewal) {
     const bool is_anything_known = theirs.until_guess >= 0;
     if (!is_anything_known || !(later < theirs.until_guess + theirs.clear_for)) return;
-    if (!is_like(sights_.of_slot[index(changed)])) {
+    if (!is_like(bodies_.sight(changed))) {
       theirs.until_guess = -1;  // of walls and the like nothing is known by sight
     } else if (theirs.partner == changed) {
       const double others =
@@ -381,7 +383,7 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::sharpen(Slot slot) {
   const Event<S>& guess = queue_.event_of(slot);
   const auto ask_for = [this](Slot own) {
-    prefetch_all(at(own));
+    bodies_.prefetch_body(own);
     neighbours_.prefetch_place(own);
   };
   const bool asks_ahead = is_worth_asking_ahead(kAskAheadFrom);
@@ -404,15 +406,11 @@ void BasicWorld<S, Laws>::sharpen(Slot slot) {
   queue_.set(slot, *event, id_lookup());
 }
 
-/// The present as sights count it; takes them anew where their epoch is over.
+/// The present as sights count it.
 template <class S, class Laws>
 [[gnu::always_inline]] inline auto BasicWorld<S, Laws>::read_sight_clock() -> SightClock {
   ++sights_.uses;
-  double now = rough_seconds(now_, sights_.epoch.begin);
-  if (!(now <= sights_.epoch.length)) [[unlikely]] {
-    begin_epoch();
-    now = 0;
-  }
+  const double now = rough_seconds(now_, sights_.epoch.begin);
   SightClock clock;
   clock.now = now;
   if constexpr (Laws::kDragged) {
@@ -427,14 +425,20 @@ template <class S, class Laws>
   return clock;
 }
 
-/// Takes all sights anew.
+// Takes all sights anew that say otherwise in another epoch. Where motions are uniform those of
+// bodies that stand still say the same in all, and whoever moves has an event (kLongestWait): so
+// nothing is done for a million bodies at rest.
 template <class S, class Laws>
 [[gnu::noinline]] void BasicWorld<S, Laws>::begin_epoch() {
+  if (!has_sights()) {
+    sights_.epoch.end = Time<S>::never();
+    return;
+  }
   const std::uint64_t uses = std::exchange(sights_.uses, 0);
   if constexpr (Laws::kCurved) {
     double radii = 0;
     std::size_t disks = 0;
-    for (const Sight& sight : sights_.of_slot) {
+    for (const Seen& sight : bodies_.sights()) {
       if (!is_like(sight)) continue;
       radii += sight.radius;
       ++disks;
@@ -444,7 +448,14 @@ template <class S, class Laws>
   } else {
     sights_.epoch.renew(now_, uses, slots_.size());
   }
-  for (Slot slot = 0; index(slot) < bodies_.size(); ++slot) renew_sight(slot);
+  constexpr std::int64_t kLate = std::int64_t{1} << 59;  // s; events may lie beyond the end of time
+  constexpr std::size_t kFew = 8;  // so many times fewer: in the order of events it takes longer
+  const bool may_ask_queue = !Laws::kCurved && !Laws::kGrows && to_instant(now_).seconds < kLate;
+  if (may_ask_queue && kFew * queue_.size() < bodies_.size()) {
+    queue_.for_each([this](Slot slot) { renew_sight(slot); });
+  } else {
+    for (Slot slot = 0; index(slot) < bodies_.size(); ++slot) renew_sight(slot);
+  }
 }
 
 /// `run` as the clock of sights shows it from now on, or less, in seconds.
@@ -482,15 +493,17 @@ CommonPull BasicWorld<S, Laws>::common_pull() const {
 
 template <class S, class Laws>
 void BasicWorld<S, Laws>::renew_sight(Slot slot) {
-  const Body<S, Laws>& body = at(slot);
-  Sight& sight = sights_.of_slot[index(slot)];
-  if constexpr (Laws::kCurved) {
+  const auto& body = at(slot);
+  Seen& sight = bodies_.sight(slot);
+  if constexpr (std::is_same_v<Seen, PlainSight>) {
+    date(sight, body.since(), sights_.epoch);
+  } else if constexpr (Laws::kCurved) {
     sight = has_sights() && falls_freely(slot) ? sight_of_falling(slot) : Sight{};
   } else if constexpr (Laws::kGrows) {
     sight = growing_sight_of(
-        body.motion, body.radius, body.grown, growth_of(slot), body.type, sights_.epoch);
+        body.motion(), body.radius(), body.grown, growth_of(slot), body.type, sights_.epoch);
   } else {
-    sight = sight_of(body.motion, body.radius, body.type, sights_.epoch);
+    sight = sight_of(body.motion(), body.radius(), body.type, sights_.epoch);
   }
   if (!has_small_cage(slot)) sight.size = -1;
 }
@@ -509,14 +522,14 @@ bool BasicWorld<S, Laws>::falls_freely(Slot slot) const {
 template <class S, class Laws>
 Sight BasicWorld<S, Laws>::sight_of_falling(Slot slot) const {
   const Time<S>& begin = sights_.epoch.begin;
-  const Body<S, Laws>& body = at(slot);
+  const auto& body = at(slot);
   const CommonPull pull = common_pull();
-  if (!(body.motion.since < begin))
-    return falling_sight_of<S>(body.motion, body.radius, pull, {}, sights_.epoch);
+  if (!(body.since() < begin))
+    return falling_sight_of<S>(body.motion(), body.radius(), pull, {}, sights_.epoch);
   const Motion<S> motion{position_of(slot, begin), velocity_of(slot, begin), begin};
   const FlownBefore before =
-      flown_before(body.motion.velocity, pull, rough_seconds(begin, body.motion.since));
-  return falling_sight_of<S>(motion, body.radius, pull, before, sights_.epoch);
+      flown_before(body.velocity(), pull, rough_seconds(begin, body.since()));
+  return falling_sight_of<S>(motion, body.radius(), pull, before, sights_.epoch);
 }
 
 }  // namespace stoss::engine

@@ -50,15 +50,15 @@ std::optional<Event<S>> BasicWorld<S, Laws>::kick_event(Slot slot) const {
 template <class S, class Laws>
 void BasicWorld<S, Laws>::kick(Slot slot, const Time<S>& instant) {
   const Thermostat& thermostat = *laws_.as_asked.thermostat;
-  Body<S, Laws>& body = at(slot);
+  auto&& body = at(slot);
   Kicks& kicks = kicks_[index(slot)];
   const KickKey key{thermostat.seed, body.id, kicks.count};
-  const auto mass = static_cast<double>(body.mass);
+  const auto mass = static_cast<double>(body.mass());
   rebase(slot, instant);
   let_go(slot);
-  body.motion.velocity = detail::stored<S>(velocity_after(key, thermostat.temperature, mass));
+  body.set_velocity(detail::stored<S>(velocity_after(key, thermostat.temperature, mass)));
   if (laws_.is_rough) {
-    const auto radius = static_cast<double>(body.radius);
+    const auto radius = static_cast<double>(body.radius());
     body.spin = detail::stored<S>(spin_after(key, thermostat.temperature, mass, radius));
   }
   renew_law(slot);

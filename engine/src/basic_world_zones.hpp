@@ -56,8 +56,8 @@ std::optional<Reject> BasicWorld<S, Laws>::check_zone(const ZoneSpec& spec, std:
 template <class S, class Laws>
 Slot BasicWorld<S, Laws>::place(const ZoneSpec& spec) {
   const Slot slot = take_slot(spec.id, BodyType::Zone);
-  at(slot).motion.position = detail::stored<S>(spec.center);
-  at(slot).radius = S(spec.radius);
+  at(slot).set_position(detail::stored<S>(spec.center));
+  at(slot).set_radius(S(spec.radius));
   ++zones_in_use_;
   renew_law(slot);
   return slot;
@@ -72,7 +72,7 @@ void BasicWorld<S, Laws>::find_who_is_inside([[maybe_unused]] Slot slot) {
       if (!is_zone_and_disk(slot, other)) return;
       const Slot zone = is_zone(slot) ? slot : other;
       const Slot disk = zone == slot ? other : slot;
-      const DoubleWord<S> radius{at(zone).radius, S(0)};
+      const DoubleWord<S> radius{at(zone).radius(), S(0)};
       for_each_image(disk, zone, [&](const Image& image) {
         const DoubleWord2<S> from_centre =
             apart(position_of(disk, now_), position_of(zone, now_), -image);
@@ -91,7 +91,7 @@ bool BasicWorld<S, Laws>::may_cross(
   const bool is_disk = at(a).is_disk();
   return may_cross_rim(is_disk ? here : there,
                        is_disk ? there : here,
-                       static_cast<double>(at(is_disk ? b : a).radius),
+                       static_cast<double>(at(is_disk ? b : a).radius()),
                        horizon,
                        bend,
                        kScreenSlack<S>);
@@ -104,12 +104,12 @@ auto BasicWorld<S, Laws>::crossing_of([[maybe_unused]] Slot disk, [[maybe_unused
   std::optional<RimCrossing> first;
   if constexpr (!Laws::kPlain) {
     const Passage<S>* const passage = passages_.find(disk, at(zone).id);
-    Time<S> reference = std::max(at(disk).motion.since, at(zone).motion.since);
+    Time<S> reference = std::max(at(disk).since(), at(zone).since());
     if (passage != nullptr) reference = std::max(reference, passage->since);
     const bool is_inside = passage != nullptr && passage->is_inside;
     const auto consider = [&](const Image& image) {
       const auto after = Laws::zone_crossing(relative_motion(disk, zone, reference, -image),
-                                             at(zone).radius,
+                                             at(zone).radius(),
                                              is_inside,
                                              valid_for(disk, zone, reference));
       if (!after) return;
@@ -197,7 +197,7 @@ void BasicWorld<S, Laws>::forget_passages([[maybe_unused]] Slot slot) {
 template <class S, class Laws>
 ZoneState BasicWorld<S, Laws>::zone_of(Slot slot) const {
   return {
-      at(slot).id, detail::rounded(at(slot).motion.position), static_cast<double>(at(slot).radius)};
+      at(slot).id, detail::rounded(at(slot).position()), static_cast<double>(at(slot).radius())};
 }
 
 template <class S, class Laws>
@@ -274,7 +274,7 @@ bool BasicWorld<S, Laws>::read_passages([[maybe_unused]] ByteSource& source,
         passage.image.y = static_cast<std::int64_t>(source.word());
       }
       if (passage.zone <= previous || is_inside > 1) return false;
-      if (passage.since < at(slot).motion.since || passage.since > now_) return false;
+      if (passage.since < at(slot).since() || passage.since > now_) return false;
       if (!is_near(passage.image)) return false;
       previous = passage.zone;
       passages_.set(slot, passage);
@@ -292,7 +292,7 @@ bool BasicWorld<S, Laws>::has_sound_passages([[maybe_unused]] Slot slot) const {
     for (const Passage<S>& passage : passages_.of(slot)) {
       const Slot found = find_slot(passage.zone);
       if (found < 0 || !is_zone(found)) return false;
-      if (passage.since < at(found).motion.since) return false;
+      if (passage.since < at(found).since()) return false;
     }
   }
   return true;

@@ -20,21 +20,38 @@ enum class BodyType : std::uint8_t { Dynamic = 0, Kinematic = 1, Static = 2, Wal
 inline BodyType type_of(BodyKind kind) { return static_cast<BodyType>(kind); }
 inline BodyKind kind_of(BodyType type) { return static_cast<BodyKind>(type); }
 
-/// `Laws`: one of laws.hpp, whose part of a body is empty unless it needs one.
-/// Whole cache lines, for bodies are met in no order.
+/// A body of any arithmetic and laws. `Laws`: one of laws.hpp, whose part of a body is empty unless
+/// it needs one. Whole cache lines, for bodies are met in no order.
 template <class S, class Laws>
 struct alignas(64) Body : Laws::template BodyPart<S> {
-  Motion<S> motion;           ///< of the centre; of a wall's start
-  S radius{};                 ///< m; 0 for a wall
-  S mass{};                   ///< kg; 0 for a wall
   Id id = kNoId;              ///< kNoId: the slot is free
   std::uint32_t changes = 0;  ///< of the motion, or of what else predictions depend on
   BodyType type = BodyType::Dynamic;
-  std::int32_t wall = -1;  ///< index of the wall's shape
+
+  const Motion<S>& motion() const { return motion_; }  ///< of the centre; of a wall's start
+  const Time<S>& since() const { return motion_.since; }
+  const DoubleWord2<S>& position() const { return motion_.position; }  ///< m, at since()
+  const DoubleWord2<S>& velocity() const { return motion_.velocity; }  ///< m/s
+  S radius() const { return radius_; }                                 ///< m; 0 for a wall
+  S mass() const { return mass_; }                                     ///< kg, of a disk
+  std::int32_t wall() const { return wall_; }  ///< index of the wall's shape
+
+  void set_since(const Time<S>& instant) { motion_.since = instant; }
+  void set_position(const DoubleWord2<S>& position) { motion_.position = position; }
+  void set_velocity(const DoubleWord2<S>& velocity) { motion_.velocity = velocity; }
+  void set_radius(const S& radius) { radius_ = radius; }
+  void set_mass(const S& mass) { mass_ = mass; }
+  void set_wall(std::int32_t shape) { wall_ = shape; }
 
   bool is_wall() const { return type == BodyType::Wall; }
   bool is_disk() const { return type <= BodyType::Static; }
   bool is_dynamic() const { return type == BodyType::Dynamic; }
+
+ private:
+  Motion<S> motion_;
+  S radius_{};
+  S mass_{};
+  std::int32_t wall_ = -1;
 };
 
 /// The turning of a disk that turns. In a world of smooth disks it is kept apart: no law reads it.

@@ -55,7 +55,9 @@ struct Event {
   std::int32_t partner = -1;          ///< slot of the other body; -1: an event of one body alone
   std::uint32_t partner_changes = 0;  ///< the partner's count when this was predicted
   EventKind kind = EventKind::NeighbourRenewal;
-  Id partner_id = kNoId;   ///< kept here: a slot may be given to another body while the event waits
+  /// Kept here: a slot may be given to another body while the event waits. Of contacts and the
+  /// like.
+  Id partner_id = kNoId;
   float clear_for = 0;     ///< s; of a guess: the body has no other event so soon after it
   float until_guess = -1;  ///< s; of a renewal: the guess of `partner` that then stands; < 0: none
 };
@@ -134,6 +136,22 @@ class EventQueue {
     if (line.home < 0) return;
     prefetch(lines_.data() + line.place);
     prefetch(lines_.data() + line.previous);
+  }
+
+  /// Calls visit(slot) for all that have an event, in no order.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::int32_t place = 0; place < heap_size_; ++place) visit(heap_[index(place)].slot);
+    for (std::size_t word = 0; word < occupied_.size(); ++word) {
+      for (std::uint64_t bits = occupied_[word]; bits != 0; bits &= bits - 1) {
+        const std::size_t bucket = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
+        for (std::int32_t slot = buckets_[bucket]; slot != kNull;
+             slot = lines_[index(slot)].place) {
+          visit(slot);
+        }
+      }
+    }
+    for (const std::int32_t slot : rest_) visit(slot);
   }
 
   /// Makes room for a slot, without an event.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 namespace stoss::engine {
 namespace {
@@ -21,12 +22,17 @@ struct SoonestByLane {
     partner = is_first ? others : partner;
   }
 
+  // Without a branch, for which lane is first is random.
   SoonestTwo over_all() const {
-    SoonestTwo all;
-    for (int lane = 0; lane < 4; ++lane) {
-      all.note(static_cast<Slot>(partner[lane]), first[lane]);
-      all.second = std::min(all.second, second[lane]);
+    SoonestTwo all{first[0], second[0]};
+    int soonest = 0;
+    for (int lane = 1; lane < 4; ++lane) {
+      const double later = std::max(all.first, first[lane]);
+      all.second = std::min(all.second, std::min(second[lane], later));
+      soonest = first[lane] < all.first ? lane : soonest;
+      all.first = std::min(all.first, first[lane]);
     }
+    all.partner = static_cast<Slot>(partner[soonest]);
     return all;
   }
 };
@@ -36,28 +42,30 @@ struct Columns {
   SightsOf<Four> of;
   Four size;
 };
-[[gnu::always_inline]] inline Columns gathered(const Sight& a,
-                                               const Sight& b,
-                                               const Sight& c,
-                                               const Sight& d) {
+template <class AnySight>
+[[gnu::always_inline]] inline Columns gathered(const AnySight& a,
+                                               const AnySight& b,
+                                               const AnySight& c,
+                                               const AnySight& d) {
   const auto from = [](const double& first) {
     Four four;
     std::memcpy(&four, &first, sizeof four);
     return four;
   };
   Four x = from(a.x), y = from(b.x), vx = from(c.x), vy = from(d.x);
-  Four since = from(a.since), radius = from(b.since), off = from(c.since), size = from(d.since);
+  Four since = from(a.since), size = from(b.since), off = from(c.since), radius = from(d.since);
   lanes::transpose(x, y, vx, vy);
-  lanes::transpose(since, radius, off, size);
+  lanes::transpose(since, size, off, radius);
+  if constexpr (std::is_same_v<AnySight, PlainSight>) radius = lanes::magnitude(size);
   return {{x, y, vx, vy, since, radius, off}, size};
 }
 
 }  // namespace
 
-template <class Common>
+template <class AnySight, class Common>
 SoonestTwo soonest_contacts(Slot slot,
                             std::span<const Slot> list,
-                            const std::vector<Sight>& sights,
+                            const std::vector<AnySight>& sights,
                             double size_min,
                             double now,
                             double slack,
@@ -67,7 +75,7 @@ SoonestTwo soonest_contacts(Slot slot,
   const Four never = Four{} + std::numeric_limits<double>::infinity();
   SoonestByLane found;
   FourWords has_others{};
-  const Sight* const see = sights.data();
+  const AnySight* const see = sights.data();
   for (std::size_t i = 0; i < list.size(); i += 4) {
     // Beyond its end a list has room for four, with slots that it held once.
     const Slot* four = list.data() + i;
@@ -86,18 +94,19 @@ SoonestTwo soonest_contacts(Slot slot,
   return all;
 }
 
-template <class Common>
+template <class AnySight, class Common>
 using SoonestContacts = SoonestTwo(Slot,
                                    std::span<const Slot>,
-                                   const std::vector<Sight>&,
+                                   const std::vector<AnySight>&,
                                    double,
                                    double,
                                    double,
                                    const Common&,
                                    double*);
-template SoonestContacts<Steady> soonest_contacts<Steady>;
-template SoonestContacts<Growing> soonest_contacts<Growing>;
-template SoonestContacts<Repeating<Steady>> soonest_contacts<Repeating<Steady>>;
-template SoonestContacts<Repeating<Growing>> soonest_contacts<Repeating<Growing>>;
+template SoonestContacts<PlainSight, Steady> soonest_contacts<PlainSight, Steady>;
+template SoonestContacts<Sight, Steady> soonest_contacts<Sight, Steady>;
+template SoonestContacts<Sight, Growing> soonest_contacts<Sight, Growing>;
+template SoonestContacts<Sight, Repeating<Steady>> soonest_contacts<Sight, Repeating<Steady>>;
+template SoonestContacts<Sight, Repeating<Growing>> soonest_contacts<Sight, Repeating<Growing>>;
 
 }  // namespace stoss::engine

@@ -35,15 +35,28 @@
 
 namespace stoss::engine {
 
-struct alignas(64) Sight {
+/// What all sights say.
+struct Look {
   double x = 0;  ///< m, of the centre at `since`; of a wall's start
   double y = 0;
   double vx = 0;  ///< m/s
   double vy = 0;
-  double since = 0;   ///< s after the epoch
+  double since = 0;  ///< s after the epoch
+  double size = -1;  ///< m, which says who holds a pair; < 0: not a disk that moves like the rest
+  double off = 0;    ///< m; by how much (1) may be wrong until the epoch ends
+};
+
+struct alignas(64) Sight : Look {
   double radius = 0;  ///< m; of a growing disk: at the epoch's beginning
-  double off = 0;     ///< m; by how much (1) may be wrong until the epoch ends
-  double size = -1;   ///< m, which says who holds a pair; < 0: not a disk that moves like the rest
+  double reach() const { return radius; }
+};
+
+/// In a world where the numbers of (1) are what the motion's high words say. There the size is that
+/// of the radius, and one more place is left for what a guess takes down of its partner.
+struct alignas(64) PlainSight : Look {
+  std::uint32_t changes = 0;  ///< of the body, as in Body
+  BodyType type = BodyType::Dynamic;
+  double reach() const { return std::abs(size); }
 };
 
 /// What all bodies have in common besides (1): nothing.
@@ -78,11 +91,32 @@ struct Repeating : Common {
   }
 };
 
+/// An instant `seconds` >= 0 later, or less by up to 2^-63 s and 2^-52 of itself; never() for what
+/// is beyond the end of time.
+inline Instant roughly_later(const Instant& from, double seconds) {
+  if (!(seconds < 0x1p60)) return Instant::never();
+  const auto whole = static_cast<std::int64_t>(seconds);
+  const auto part = static_cast<std::uint64_t>((seconds - static_cast<double>(whole)) * 0x1p63);
+  const Instant later = instant_from_ticks(
+      ticks(from) + ((static_cast<Int128>(whole) << 64) | static_cast<Int128>(part << 1)));
+  return in_range(later) ? later : Instant::never();
+}
+inline WideInstant roughly_later(const WideInstant& from, double seconds) {
+  const Instant later = roughly_later(from.coarse, seconds);
+  return {later, later == Instant::never() ? 0 : from.fine};
+}
+
 /// The instant that sights count from, and how long they may.
 template <class S>
 struct Epoch {
   Time<S> begin;
   double length = 1;  ///< s
+  Time<S> end{};      ///< kept by start()
+
+  void start(const Time<S>& now) {
+    begin = now;
+    end = roughly_later(now, length);
+  }
 
   /// Sights are taken anew; `events`: since the last time; `bodies`: how many there are. That is a
   /// moment without any event, so epochs are long: some ten thousand events a body, after which a
@@ -92,20 +126,31 @@ struct Epoch {
              std::uint64_t events,
              std::uint64_t bodies,
              double fine = std::numeric_limits<double>::infinity()) {
-    begin = now;
     const bool is_coarse = length > fine;
     const bool becomes_coarse = 4 * length > fine;
     if (events < (is_coarse ? 1 : becomes_coarse ? 64 : 4096) * bodies) {
       length = std::min(4 * length, 0x1p60);
     }
     if (events > (is_coarse ? 16 : 65'536) * bodies) length = std::max(length / 4, 0x1p-60);
+    start(now);
   }
 };
 
 /// Rounding of a coordinate in double: a few units in the last place.
 inline constexpr double kSightRounding = 1e-15;
 
-/// The sight of a body with this motion, until `length` seconds after the epoch's beginning.
+/// Makes a sight that shows where and how fast a body is count from the epoch's beginning, until
+/// `length` seconds after it. `since`: when the body was there.
+template <class S>
+void date(Look& sight, const Time<S>& since, const Epoch<S>& epoch) {
+  sight.since = rough_seconds(since, epoch.begin);
+  const double speed = std::abs(sight.vx) + std::abs(sight.vy);
+  const double way = speed * (std::abs(sight.since) + epoch.length);
+  sight.off = kSightRounding * (std::abs(sight.x) + std::abs(sight.y)) + kFlightSlack<S> * way +
+              kClock * speed;
+}
+
+/// The sight of a body with this motion.
 template <class S>
 Sight sight_of(const Motion<S>& motion, const S& radius, BodyType type, const Epoch<S>& epoch) {
   Sight sight;
@@ -113,13 +158,9 @@ Sight sight_of(const Motion<S>& motion, const S& radius, BodyType type, const Ep
   sight.y = static_cast<double>(motion.position.y.hi) + static_cast<double>(motion.position.y.lo);
   sight.vx = static_cast<double>(motion.velocity.x.hi) + static_cast<double>(motion.velocity.x.lo);
   sight.vy = static_cast<double>(motion.velocity.y.hi) + static_cast<double>(motion.velocity.y.lo);
-  sight.since = rough_seconds(motion.since, epoch.begin);
   sight.radius = static_cast<double>(radius);
   sight.size = type == BodyType::Dynamic ? sight.radius : -1;
-  const double speed = std::abs(sight.vx) + std::abs(sight.vy);
-  const double way = speed * (std::abs(sight.since) + epoch.length);
-  sight.off = kSightRounding * (std::abs(sight.x) + std::abs(sight.y)) + kFlightSlack<S> * way +
-              kClock * speed;
+  date(sight, motion.since, epoch);
   return sight;
 }
 
@@ -140,21 +181,6 @@ Sight growing_sight_of(const Motion<S>& motion,
   return sight;
 }
 
-/// An instant `seconds` >= 0 later, or less by up to 2^-63 s and 2^-52 of itself; never() for what
-/// is beyond the end of time.
-inline Instant roughly_later(const Instant& from, double seconds) {
-  if (!(seconds < 0x1p60)) return Instant::never();
-  const auto whole = static_cast<std::int64_t>(seconds);
-  const auto part = static_cast<std::uint64_t>((seconds - static_cast<double>(whole)) * 0x1p63);
-  const Instant later = instant_from_ticks(
-      ticks(from) + ((static_cast<Int128>(whole) << 64) | static_cast<Int128>(part << 1)));
-  return in_range(later) ? later : Instant::never();
-}
-inline WideInstant roughly_later(const WideInstant& from, double seconds) {
-  const Instant later = roughly_later(from.coarse, seconds);
-  return {later, later == Instant::never() ? 0 : from.fine};
-}
-
 /// `later` - `earlier`, two numbers of seconds >= 0, and rather less; >= 0.
 inline float safe_difference(double later, double earlier) {
   const double less = (later - earlier) * (1 - 1e-6) - 1e-12 * earlier;
@@ -165,12 +191,13 @@ inline float safe_difference(double later, double earlier) {
 struct Present {
   double x, y, vx, vy, radius, off;
 };
-[[gnu::always_inline]] inline Present present_of(const Sight& sight, double now) {
+template <class AnySight>
+[[gnu::always_inline]] inline Present present_of(const AnySight& sight, double now) {
   return {sight.x + sight.vx * (now - sight.since),
           sight.y + sight.vy * (now - sight.since),
           sight.vx,
           sight.vy,
-          sight.radius,
+          sight.reach(),
           sight.off};
 }
 
@@ -250,11 +277,11 @@ template <class V, class Common>
   return ((approach < 0) | (disc < 0)) ? never : if_any;
 }
 
-template <class Common = Steady>
+template <class AnySight, class Common = Steady>
 double soonest_contact(
-    const Sight& a, const Sight& b, double now, double slack, const Common& common = {}) {
+    const AnySight& a, const AnySight& b, double now, double slack, const Common& common = {}) {
   return soonest_contact<double>(
-      present_of(a, now), {b.x, b.y, b.vx, b.vy, b.since, b.radius, b.off}, now, slack, common);
+      present_of(a, now), {b.x, b.y, b.vx, b.vy, b.since, b.reach(), b.off}, now, slack, common);
 }
 
 /// What a body has before it among others: bounds of its contacts, s from now.
@@ -276,22 +303,20 @@ struct SoonestTwo {
 };
 
 /// Does the body move like most, so that four of them can be looked at together?
-inline bool is_like(const Sight& sight) { return sight.size >= 0; }
+inline bool is_like(const Look& sight) { return sight.size >= 0; }
 
 /// Is this one for the bodies that soonest_contacts() passes over?
-inline bool is_passed_over(const Sight& sight, double size_min) {
-  return !(sight.size >= size_min);
-}
+inline bool is_passed_over(const Look& sight, double size_min) { return !(sight.size >= size_min); }
 
 /// Of the disks in a list that are like the rest and have at least this size, the soonest two
 /// contacts with the body of this slot, by soonest_contact(). REQUIRES: size_min >= 0; `list` is in
 /// memory up to the next multiple of four, and what stands there are slots of `sights`, whichever.
 /// `each` gets the soonest contact with each of the list, of those that are like the rest; as much
 /// memory is there.
-template <class Common>
+template <class AnySight, class Common>
 SoonestTwo soonest_contacts(Slot slot,
                             std::span<const Slot> list,
-                            const std::vector<Sight>& sights,
+                            const std::vector<AnySight>& sights,
                             double size_min,
                             double now,
                             double slack,

@@ -193,6 +193,38 @@ TEST(Speeds, TooSlowToMeetBeforeTheEndOfTimeNeverMeet) {
   EXPECT_LT(report.events, 10U);
 }
 
+/// At 2^57 s a bullet meets a disk that goes against it at 2^-62 m/s. Many others rest, and one
+/// goes to and fro, so that the present is never far behind the next event.
+std::vector<Collision> meeting_late(BroadPhaseKind broad_phase) {
+  WorldOptions options;
+  options.broad_phase = broad_phase;
+  World world(options);
+  std::vector<DiskSpec> disks{disk(1, {0.5, 0.5}, {-0x1p-62, 0}, 0.5),
+                              disk(2, {-7.5, 0.5}, {7 * 0x1p-57, 0}, 0.5),
+                              test::static_disk(3, {0, 30}, 0.5),
+                              disk(4, {1 + 0x1p-6, 30}, {0x1p-51, 0}, 0.5),
+                              test::static_disk(5, {2 + 0x1p-5, 30}, 0.5)};
+  for (Id id = 6; id < 50; ++id) {
+    disks.push_back(disk(id, {2.0 * static_cast<double>(id), 9}, {0, 0}, 0.5));
+  }
+  must_spawn(world, disks);
+  test::Log log;
+  for (int power = 0; power <= 58; ++power) {  // through many epochs of sights
+    EXPECT_TRUE(world.advance_to(Instant{std::int64_t{1} << power, 0}, &log).ok());
+  }
+  std::erase_if(log.collisions, [](const Collision& c) { return c.a != 1; });
+  return log.collisions;
+}
+
+TEST(Speeds, WhoHardlyMovesIsMetWhereItHasCome) {
+  const auto log = meeting_late(BroadPhaseKind::Neighbours);
+  const auto log_of_all_pairs = meeting_late(BroadPhaseKind::AllPairs);
+  ASSERT_EQ(log.size(), 1U);
+  ASSERT_EQ(log_of_all_pairs.size(), 1U);
+  EXPECT_EQ(log[0].instant, log_of_all_pairs[0].instant);
+  EXPECT_LT(log[0].point.x(), -0x1p-6);
+}
+
 TEST(Speeds, SlowContactsComeInTheirTime) {
   World world;
   must_spawn(world, {disk(1, {0, 0}, {0x1p-40, 0}, 0.5), disk(2, {3, 0}, {-0x1p-40, 0}, 0.5)});
