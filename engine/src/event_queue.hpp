@@ -417,6 +417,7 @@ class EventQueue {
     open_start_ = first;
     open_bucket_ = 0;
     file_rest(ids);
+    refiled_.shrink_to_fit();  // that was for all events; the next is for a few
   }
 
   template <class Ids>
