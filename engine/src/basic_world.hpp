@@ -530,7 +530,7 @@ class BasicWorld final : public WorldCore {
   std::size_t zones_in_use_ = 0;
   [[no_unique_address]] std::conditional_t<Laws::kPlain, NoZonePassages, ZonePassages<S>> passages_;
 
-  /// What a prediction looks at.
+  /// What all sights have in common.
   struct Sights {
     Epoch<S> epoch;
     std::uint64_t uses = 0;              ///< in this epoch
