@@ -104,7 +104,9 @@ class Session::Impl {
   std::uint64_t last_number_ = 0;
   SessionCounters counters_;
 
-  std::mutex send_mutex_;  ///< one thread writes at a time; taken after mutex_, never before
+  /// One thread writes at a time, and in the order of numbers: the daemon refuses a number that
+  /// comes long after those that follow it. Taken before mutex_, never after.
+  std::mutex send_mutex_;
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };
@@ -196,12 +198,15 @@ void Session::Impl::start(const Request& request,
   std::uint64_t number = 0;
   bool was_empty = false;
   {
-    const std::lock_guard lock(mutex_);
-    number = ++last_number_;
-    was_empty = pending_.empty();
-    pending_.add(number, std::move(waiting));
+    const std::lock_guard in_order(send_mutex_);
+    {
+      const std::lock_guard lock(mutex_);
+      number = ++last_number_;
+      was_empty = pending_.empty();
+      pending_.add(number, std::move(waiting));
+    }
+    send(number, request);
   }
-  send(number, request);
   wake_if_idle(was_empty);
 }
 
@@ -233,16 +238,15 @@ Result<Answer> Session::Impl::ask(const Query& query, Milliseconds timeout) {
   return future.get();
 }
 
-// A write that fails because the daemon takes nothing in is made good by the next retry.
+// A write that fails because the daemon takes nothing in is made good by the next retry. REQUIRES:
+// send_mutex_ is held.
 void Session::Impl::send(std::uint64_t number, const Command& command) {
   const EncodedCommand encoded(command.spec(), {id, number});
-  const std::lock_guard lock(send_mutex_);
   static_cast<void>(command_writer_.write(encoded.sample()));
 }
 
 void Session::Impl::send(std::uint64_t number, const Query& query) {
   const wire::Query sample = encode(query, {id, number});
-  const std::lock_guard lock(send_mutex_);
   static_cast<void>(query_writer_.write(sample));
 }
 
@@ -344,7 +348,9 @@ void Session::Impl::resend(const Due& due) {
       const std::lock_guard lock(mutex_);
       if (const PendingQuery* waiting = pending_.query(number)) query = waiting->query;
     }
-    if (query) send(number, *query);
+    if (!query) continue;
+    const std::lock_guard lock(send_mutex_);
+    send(number, *query);
   }
 }
 
