@@ -128,6 +128,11 @@ std::optional<BodyUpdate> BodyFeed::next(Milliseconds timeout) {
       timeout,
       [this](const dds::Sample<wire::BodyState>& sample) {
         impl_->updates.push_back(body_update_of(sample));
+        // A state that nobody had looked at when the slot was given up tells of that, too.
+        if (sample.valid() && (sample.disposed() || sample.orphaned())) {
+          impl_->updates.push_back(
+              {.slot = sample.data.slot, .epoch = sample.data.epoch, .gone = true});
+        }
       },
       [this] { return pop(impl_->updates); });
 }

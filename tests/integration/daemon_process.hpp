@@ -58,7 +58,14 @@ class Process {
     unlink(log_file_.c_str());
   }
 
-  void signal(int number) const { kill(pid_, number); }
+  /// Waits until it has stopped where it is to stop: its threads do so one by one.
+  void signal(int number) const {
+    kill(pid_, number);
+    siginfo_t how{};
+    if (number == SIGSTOP) {
+      waitid(P_PID, static_cast<id_t>(pid_), &how, WSTOPPED | WEXITED | WNOWAIT);
+    }
+  }
   [[nodiscard]] pid_t pid() const { return pid_; }
 
   /// Its exit status; 128 + signal when it was killed; nothing when it still runs after `timeout`.
