@@ -248,6 +248,7 @@ class BasicWorld final : public WorldCore {
   Event<S> guess_of(const Foresight& ahead) const;
   void name_partner(Event<S>& event, Slot partner) const;
   Event<S> guess_after(double renewal, const Foresight& ahead) const;
+  void set_guess(Slot slot, Event<S> next, double first, double second);
   void schedule(Slot slot, const Foresight& ahead, double renewal);
   double time_to_renewal(Slot slot, const Seen& own, const SightClock& clock) const;
   double time_to_renewal_far_out(Slot slot) const;

@@ -234,6 +234,19 @@ void BasicWorld<S, Laws>::name_partner(Event<S>& event, Slot partner) const {
   event.partner_changes = at(partner).changes;
 }
 
+/// Makes a contact with the partner of `next`, `first` s from now or later, the body's event, which
+/// has no other before `second`.
+template <class S, class Laws>
+[[gnu::always_inline]] inline void BasicWorld<S, Laws>::set_guess(Slot slot,
+                                                                  Event<S> next,
+                                                                  double first,
+                                                                  double second) {
+  next.at = roughly_later(now_, first);
+  next.kind = EventKind::Guess;
+  next.clear_for = safe_difference(second, first);
+  queue_.set(slot, next, id_lookup());
+}
+
 // Makes the first of what lies ahead the body's event.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double renewal) {
@@ -241,11 +254,7 @@ void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double ren
   double limit = renewal;
   if (ahead.exact) limit = std::min(limit, rough_seconds(ahead.exact->at, now_));
   if (ahead.first < limit) {
-    Event<S> next = guess_of(ahead);
-    next.at = roughly_later(now_, ahead.first);
-    next.kind = EventKind::Guess;
-    next.clear_for = safe_difference(std::min(ahead.second, limit), ahead.first);
-    queue_.set(slot, next, id_lookup());
+    set_guess(slot, guess_of(ahead), ahead.first, std::min(ahead.second, limit));
   } else if (limit == renewal) {
     Event<S> next;
     if (!ahead.exact && !ahead.has_others) next = guess_after(renewal, ahead);
@@ -341,10 +350,7 @@ bool BasicWorld<S, Laws>::guess_again(Slot holder, Slot changed, double soonest)
   if (!(soonest > kNear && soonest < others)) return false;
   Event<S> next;
   name_partner(next, changed);
-  next.at = roughly_later(now_, soonest);
-  next.kind = EventKind::Guess;
-  next.clear_for = safe_difference(others, soonest);
-  queue_.set(holder, next, id_lookup());
+  set_guess(holder, next, soonest, others);
   return true;
 }
 
@@ -448,7 +454,8 @@ template <class S, class Laws>
   } else {
     sights_.epoch.renew(now_, uses, slots_.size());
   }
-  constexpr std::int64_t kLate = std::int64_t{1} << 59;  // s; events may lie beyond the end of time
+  constexpr auto kLate =
+      static_cast<std::int64_t>(kLongestWait);  // s; later, who moves may have none
   constexpr std::size_t kFew = 8;  // so many times fewer: in the order of events it takes longer
   const bool may_ask_queue = !Laws::kCurved && !Laws::kGrows && to_instant(now_).seconds < kLate;
   if (may_ask_queue && kFew * queue_.size() < bodies_.size()) {

@@ -20,43 +20,54 @@
 
 namespace stoss::engine {
 
-template <class S, class Laws>
-class Bodies {
+/// Of each body a sight, and what is kept beside it.
+template <class Kept, class AnySight>
+class BesideSights {
  public:
-  using View = Body<S, Laws>&;
-  using ConstView = const Body<S, Laws>&;
-  using Seen = Sight;
+  using Seen = AnySight;
 
-  std::size_t size() const { return bodies_.size(); }
+  std::size_t size() const { return kept_.size(); }
   void reserve(std::size_t count) {
-    bodies_.reserve(count);
+    kept_.reserve(count);
     sights_.reserve(count);
   }
   void add() {
-    bodies_.emplace_back();
+    kept_.emplace_back();
     sights_.emplace_back();
   }
+  AnySight& sight(Slot slot) { return sights_[static_cast<std::size_t>(slot)]; }
+  const AnySight& sight(Slot slot) const { return sights_[static_cast<std::size_t>(slot)]; }
+  const std::vector<AnySight>& sights() const { return sights_; }
+  void prefetch_sight(Slot slot) const { prefetch(&sight(slot)); }
+  /// And all else that is kept of a body.
+  void prefetch_body(Slot slot) const {
+    prefetch_sight(slot);
+    prefetch_all(kept(slot));
+  }
+
+ protected:
+  Kept& kept(Slot slot) { return kept_[static_cast<std::size_t>(slot)]; }
+  const Kept& kept(Slot slot) const { return kept_[static_cast<std::size_t>(slot)]; }
+
+ private:
+  std::vector<Kept> kept_;
+  std::vector<AnySight> sights_;
+};
+
+template <class S, class Laws>
+class Bodies : public BesideSights<Body<S, Laws>, Sight> {
+ public:
+  using View = Body<S, Laws>&;
+  using ConstView = const Body<S, Laws>&;
+
+  View at(Slot slot) { return this->kept(slot); }
+  ConstView at(Slot slot) const { return this->kept(slot); }
   /// Back to a body that nobody has; `changes` stays.
   void clear(Slot slot) {
     const std::uint32_t changes = at(slot).changes;
     at(slot) = Body<S, Laws>{};
     at(slot).changes = changes;
   }
-  View at(Slot slot) { return bodies_[static_cast<std::size_t>(slot)]; }
-  ConstView at(Slot slot) const { return bodies_[static_cast<std::size_t>(slot)]; }
-  Sight& sight(Slot slot) { return sights_[static_cast<std::size_t>(slot)]; }
-  const Sight& sight(Slot slot) const { return sights_[static_cast<std::size_t>(slot)]; }
-  const std::vector<Sight>& sights() const { return sights_; }
-  void prefetch_sight(Slot slot) const { prefetch(&sight(slot)); }
-  /// And all else that is kept of a body.
-  void prefetch_body(Slot slot) const {
-    prefetch_sight(slot);
-    prefetch_all(at(slot));
-  }
-
- private:
-  std::vector<Body<S, Laws>> bodies_;
-  std::vector<Sight> sights_;
 };
 
 /// What a body is beside its sight.
@@ -122,41 +133,19 @@ class PlainBody {
 };
 
 template <>
-class Bodies<double, PlainLaws> {
+class Bodies<double, PlainLaws> : public BesideSights<ExactPart, PlainSight> {
  public:
   using View = PlainBody<false>;
   using ConstView = PlainBody<true>;
-  using Seen = PlainSight;
 
-  std::size_t size() const { return exact_.size(); }
-  void reserve(std::size_t count) {
-    exact_.reserve(count);
-    sights_.reserve(count);
-  }
-  void add() {
-    exact_.emplace_back();
-    sights_.emplace_back();
-  }
+  View at(Slot slot) { return {sight(slot), kept(slot)}; }
+  ConstView at(Slot slot) const { return {sight(slot), kept(slot)}; }
   void clear(Slot slot) {
     const std::uint32_t changes = sight(slot).changes;
-    exact_[static_cast<std::size_t>(slot)] = {};
+    kept(slot) = {};
     sight(slot) = {};
     sight(slot).changes = changes;
   }
-  View at(Slot slot) { return {sight(slot), exact_[static_cast<std::size_t>(slot)]}; }
-  ConstView at(Slot slot) const { return {sight(slot), exact_[static_cast<std::size_t>(slot)]}; }
-  PlainSight& sight(Slot slot) { return sights_[static_cast<std::size_t>(slot)]; }
-  const PlainSight& sight(Slot slot) const { return sights_[static_cast<std::size_t>(slot)]; }
-  const std::vector<PlainSight>& sights() const { return sights_; }
-  void prefetch_sight(Slot slot) const { prefetch(&sight(slot)); }
-  void prefetch_body(Slot slot) const {
-    prefetch_sight(slot);
-    prefetch(&exact_[static_cast<std::size_t>(slot)]);
-  }
-
- private:
-  std::vector<ExactPart> exact_;
-  std::vector<PlainSight> sights_;
 };
 
 }  // namespace stoss::engine

@@ -141,16 +141,7 @@ class EventQueue {
   /// Calls visit(slot) for all that have an event, in no order.
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (std::int32_t place = 0; place < heap_size_; ++place) visit(heap_[index(place)].slot);
-    for (std::size_t word = 0; word < occupied_.size(); ++word) {
-      for (std::uint64_t bits = occupied_[word]; bits != 0; bits &= bits - 1) {
-        const std::size_t bucket = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-        for (std::int32_t slot = buckets_[bucket]; slot != kNull;
-             slot = lines_[index(slot)].place) {
-          visit(slot);
-        }
-      }
-    }
+    for_each_filed(visit);
     for (const std::int32_t slot : rest_) visit(slot);
   }
 
@@ -375,18 +366,24 @@ class EventQueue {
 
   // The world has become faster, slower or fuller than the buckets were cut for.
   void gather_all() {
-    for (std::int32_t place = 0; place < heap_size_; ++place) add_to_rest(heap_[index(place)].slot);
+    for_each_filed([this](std::int32_t slot) { add_to_rest(slot); });
     heap_size_ = 0;
+    std::fill(buckets_.begin(), buckets_.end(), kNull);
+    std::fill(occupied_.begin(), occupied_.end(), 0);
+  }
+
+  // Those in the heap and in buckets; `visit` may file them elsewhere.
+  template <class Visit>
+  void for_each_filed(const Visit& visit) const {
+    for (std::int32_t place = 0; place < heap_size_; ++place) visit(heap_[index(place)].slot);
     for (std::size_t word = 0; word < occupied_.size(); ++word) {
-      for (; occupied_[word] != 0; occupied_[word] &= occupied_[word] - 1) {
-        const std::size_t bucket =
-            word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word]));
+      for (std::uint64_t bits = occupied_[word]; bits != 0; bits &= bits - 1) {
+        const std::size_t bucket = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
         for (std::int32_t slot = buckets_[bucket]; slot != kNull;) {
-          const std::int32_t next = line(slot).place;
-          add_to_rest(slot);
+          const std::int32_t next = lines_[index(slot)].place;
+          visit(slot);
           slot = next;
         }
-        buckets_[bucket] = kNull;
       }
     }
   }

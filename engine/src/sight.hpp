@@ -93,7 +93,7 @@ struct Repeating : Common {
 
 /// An instant `seconds` >= 0 later, or less by up to 2^-63 s and 2^-52 of itself; never() for what
 /// is beyond the end of time.
-inline Instant roughly_later(const Instant& from, double seconds) {
+[[gnu::always_inline]] inline Instant roughly_later(const Instant& from, double seconds) {
   if (!(seconds < 0x1p60)) return Instant::never();
   const auto whole = static_cast<std::int64_t>(seconds);
   const auto part = static_cast<std::uint64_t>((seconds - static_cast<double>(whole)) * 0x1p63);

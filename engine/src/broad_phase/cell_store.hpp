@@ -230,6 +230,16 @@ class CellStore {
   /// More than the cells that a search of all blocks looks at.
   double cells_max() const { return static_cast<double>(kBlockCells * table_.size()); }
 
+  /// A cell's bit among those of its block.
+  static std::uint64_t bit_of(std::int64_t x, std::int64_t y) {
+    return std::uint64_t{1} << in_block(x, y);
+  }
+  /// The bits of those of a range that lie in a block, by its numbers along the axes.
+  static std::uint64_t bits_within(const Range& cells, std::int64_t block_x, std::int64_t block_y) {
+    const Range part = part_of(cells, block_x, block_y);
+    return part.x0 > part.x1 || part.y0 > part.y1 ? 0 : bits_of(part);
+  }
+
   /// The largest whole number below; of one beyond 2^62, which no item's cell has, some such.
   static std::int64_t floor_of(double x) {
     const auto whole = static_cast<std::int64_t>(std::clamp(x, -0x1p62, 0x1p62));
@@ -274,7 +284,8 @@ class CellStore {
     return (h ^ (h >> 32)) * 0xd6e8feb86659fd93U;
   }
 
-  /// The part of a range that lies in a block, counted from its corner. REQUIRES: there is one.
+  /// The part of a range that lies in a block, counted from its corner; it ends before it begins
+  /// where there is none.
   static Range part_of(const Range& cells, std::int64_t block_x, std::int64_t block_y) {
     const std::int64_t x = block_x * kBlockSide, y = block_y * kBlockSide;
     return {std::max(cells.x0 - x, std::int64_t{0}),
@@ -282,7 +293,7 @@ class CellStore {
             std::min(cells.x1 - x, kBlockSide - 1),
             std::min(cells.y1 - y, kBlockSide - 1)};
   }
-  /// The cells of such a part as bits.
+  /// The cells of such a part as bits. REQUIRES: there is one.
   static std::uint64_t bits_of(const Range& part) {
     const std::uint64_t row = (0xffU >> (7 - part.x1)) & (0xffU << part.x0);
     const std::uint64_t rows = (~std::uint64_t{0} >> (8 * (7 - part.y1)));

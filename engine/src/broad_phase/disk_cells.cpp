@@ -111,28 +111,9 @@ std::int32_t DiskCells::straggler_of_some_level() {
   return CellStore::kNone;
 }
 
-std::uint64_t DiskCells::cells_within(const Level& level, const Cell& key, const Aabb& box) {
-  const CellStore::Range all = cells_beside(level, box);
-  const std::int64_t x = key.x * CellStore::kBlockSide, y = key.y * CellStore::kBlockSide;
-  const std::int64_t x0 = std::max(all.x0 - x, std::int64_t{0});
-  const std::int64_t y0 = std::max(all.y0 - y, std::int64_t{0});
-  const std::int64_t x1 = std::min(all.x1 - x, kLastInBlock);
-  const std::int64_t y1 = std::min(all.y1 - y, kLastInBlock);
-  std::uint64_t cells = 0;
-  for (std::int64_t row = y0; row <= y1; ++row) {
-    for (std::int64_t column = x0; column <= x1; ++column) cells |= bit_of({column, row});
-  }
-  return cells;
-}
-
 void DiskCells::note_bystander(const Aabb& box) {
   for (const Level& level : levels_) {
-    const double beyond = (kBeyond + 2 * kRounding) * level.side + level.radius_max;
-    const CellStore::Range cells{CellStore::floor_of((box.low_x - beyond) * level.inverse),
-                                 CellStore::floor_of((box.low_y - beyond) * level.inverse),
-                                 CellStore::floor_of((box.high_x + beyond) * level.inverse),
-                                 CellStore::floor_of((box.high_y + beyond) * level.inverse)};
-    if (!store_.forget_notes(cells, level.id)) {
+    if (!store_.forget_notes(cells_beside(level, box, 2 * kRounding), level.id)) {
       ++changes_;
       return;
     }

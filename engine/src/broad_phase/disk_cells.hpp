@@ -75,7 +75,7 @@ class DiskCells {
   /// Is nothing to be found by bystanders() or on other levels? REQUIRES: contained.
   bool is_by_itself(std::int32_t disk) const {
     const CellStore::Note& note = store_.note_of_block_of(disk);
-    return note.as_of == changes_ && lists_.size(note.list) == 0 && levels_.size() == 1;
+    return note.as_of == changes_ && lists_.size(note.list) == 0 && !has_other_levels();
   }
   /// Calls visit(body) for what may be near the disk without standing in a cell: of all that
   /// `search(box, found)` adds to `found` for a box around the disk's block of cells, those whose
@@ -93,14 +93,16 @@ class DiskCells {
       search(box_of_block(level, key), asked_);
       noted_.clear();
       for (std::size_t i = 0; i < std::min(asked_.size(), kManyBystanders); ++i) {
-        note_down(asked_[i], cells_within(level, key, box_of(asked_[i])));
+        const CellStore::Range cells = cells_beside(level, box_of(asked_[i]), kRounding);
+        note_down(asked_[i], CellStore::bits_within(cells, key.x, key.y));
       }
       lists_.assign(note->list, noted_);
       note->as_of = changes_;
     }
     const auto noted = lists_.items(note->list);
     if (noted.size() == kManyBystanders * kWordsNoted) return false;
-    const std::uint64_t here = bit_of(store_.cell_of(disk));
+    const Cell own = store_.cell_of(disk);
+    const std::uint64_t here = CellStore::bit_of(own.x, own.y);
     for (std::size_t i = 0; i < noted.size(); i += kWordsNoted) {
       if ((cells_noted(&noted[i]) & here) != 0) visit(noted[i]);
     }
@@ -112,12 +114,11 @@ class DiskCells {
                         const Step& step,
                         std::span<const std::int32_t> known) const {
     const CellStore::Note& note = store_.note_of_block_of(disk);
-    if (note.as_of != changes_ || levels_.size() != 1) return false;
+    if (note.as_of != changes_ || has_other_levels()) return false;
     const Cell to = store_.cell_of(disk);
     const std::int64_t x = (to.x & kLastInBlock) - step.dx, y = (to.y & kLastInBlock) - step.dy;
     if (((x | y) & ~kLastInBlock) != 0) return false;
-    const std::uint64_t here = bit_of(to);
-    const std::uint64_t both = here | bit_of({x, y});
+    const std::uint64_t both = CellStore::bit_of(to.x, to.y) | CellStore::bit_of(x, y);
     const auto noted = lists_.items(note.list);
     std::size_t found = 0;
     for (std::size_t i = 0; i < noted.size(); i += kWordsNoted) {
@@ -153,7 +154,7 @@ class DiskCells {
   /// A disk that should enter() anew though it may not move for long: its level has been given up,
   /// and costs every search as long as disks are left in it. -1: none, or none at hand.
   std::int32_t straggler() {
-    return levels_.size() < 2 ? CellStore::kNone : straggler_of_some_level();
+    return has_other_levels() ? straggler_of_some_level() : CellStore::kNone;
   }
 
   /// So much room collect_around() and collect_new_around() need, in disks.
@@ -224,10 +225,6 @@ class DiskCells {
   static constexpr std::int64_t kLastInBlock = CellStore::kBlockSide - 1;
   static_assert(CellStore::kBlockCells == 64);
 
-  static std::uint64_t bit_of(const Cell& cell) {
-    return std::uint64_t{1} << ((cell.y & kLastInBlock) * CellStore::kBlockSide +
-                                (cell.x & kLastInBlock));
-  }
   static std::uint64_t cells_noted(const std::int32_t* noted) {
     std::uint64_t cells = 0;
     std::memcpy(&cells, noted + 1, sizeof cells);
@@ -239,16 +236,14 @@ class DiskCells {
     words[0] = body;
     std::memcpy(words + 1, &cells, sizeof cells);
   }
-  /// The cells whose cages, with their disks, a box may overlap.
-  static CellStore::Range cells_beside(const Level& level, const Aabb& box) {
-    const double beyond = (kBeyond + kRounding) * level.side + level.radius_max;
+  /// The cells whose cages, with their disks, a box may overlap. `rounding`: in sides of cells.
+  static CellStore::Range cells_beside(const Level& level, const Aabb& box, double rounding) {
+    const double beyond = (kBeyond + rounding) * level.side + level.radius_max;
     return {CellStore::floor_of((box.low_x - beyond) * level.inverse),
             CellStore::floor_of((box.low_y - beyond) * level.inverse),
             CellStore::floor_of((box.high_x + beyond) * level.inverse),
             CellStore::floor_of((box.high_y + beyond) * level.inverse)};
   }
-  /// Those of a block, one bit each.
-  static std::uint64_t cells_within(const Level& level, const Cell& key, const Aabb& box);
 
   static double least_side(double radius_max) {
     return 2 * radius_max / (1 - 2 * kBeyond - 2 * kRounding);
