@@ -5,22 +5,25 @@
 //
 // Events are ordered by (instant, kind, lower id, higher id); instants differ almost always, so ids
 // are looked up on ties alone. A calendar sorts them only as far as it must: a ring of buckets of
-// equal width, a heap for the bucket that is open, and an unsorted rest beyond the ring's lap. A
-// body at rest for ever is in none of them.
+// equal width, a heap for the bucket that is open, stretches of half a ring each beyond the ring
+// (later_events.hpp), and an unsorted rest beyond those. A body at rest for ever is in none.
 //
 // Source: the calendar of Paul, J. Comput. Phys. 221 (2007) 615. Deviations: bucket numbers are
 // shifted instants, exact integers, so no order is ever decided by rounding; the open bucket is a
 // heap, so that a million events at one instant cost a logarithm each and not a scan, with the
-// instants in its entries, so that comparing touches no other line; a bucket that was opened is at
-// once the last of the lap, so that there is no moment at which all events must be filed anew;
-// width and number of buckets are taken from the events themselves, and again where they no longer
-// suit.
+// instants in its entries, so that comparing touches no other line; the ring is so short that the
+// memory of its events is at hand, and most events are filed far beyond it, where that takes no
+// other line; a bucket that was opened is at once the last of the ring, a stretch that was filed
+// the last of those, so that there is no moment at which all events must be filed anew; width and
+// number of buckets are taken from the events themselves, and again where they no longer suit.
 //
-// Invariants: 1. the heap holds every event that is due before the open bucket ends, a bucket only
-// such as are due within a lap from the open one's start; those of the rest are due a lap after
-// where the open bucket was when the rest was looked through last, or later; 2. no event stands
-// above an earlier one in the heap; 3. a bit of occupied_ is set where its bucket holds something.
+// Invariants: 1. the heap holds every event that is due before the open bucket ends, the ring all
+// others before the first stretch begins, which is half a ring from there or more; those of the
+// rest are due after all stretches as they were when the rest was looked through last; 2. no event
+// stands above an earlier one in the heap; 3. a bit of occupied_ is set where its bucket holds
+// something; 4. who is in a stretch has an entry there, in its place.
 
+#include "later_events.hpp"
 #include "prefetch.hpp"
 
 #include <stoss/engine/instant.hpp>
@@ -92,7 +95,8 @@ inline Int128 bucket_ticks(const WideInstant& t) { return ticks(t.coarse); }
 
 }  // namespace detail
 
-template <class S>
+/// `kRingMax`: buckets of the ring at most, a power of two from 64 on.
+template <class S, std::size_t kRingMax = 2048>
 class EventQueue {
  public:
   bool empty() const { return size_ == 0; }
@@ -145,6 +149,9 @@ class EventQueue {
     for (const std::int32_t slot : rest_) visit(slot);
   }
 
+  /// For how many slots it has memory in use, besides that which each has of its own.
+  std::size_t entries_kept() const { return later_.entries_kept() + rest_.size() + heap_.size(); }
+
   /// Makes room for a slot, without an event.
   void admit(std::int32_t slot) {
     if (index(slot) >= lines_.size()) lines_.resize(index(slot) + 1);
@@ -167,16 +174,19 @@ class EventQueue {
   }
 
  private:
-  // Where a slot is: in a bucket (its number), or in one of these.
+  // Where a slot is: in a bucket (its number), in one of these, or in a stretch (kFirstStretch less
+  // its number).
   static constexpr std::int32_t kAbsent = -1;
   static constexpr std::int32_t kHeap = -2;
   static constexpr std::int32_t kRest = -3;
+  static constexpr std::int32_t kFirstStretch = -4;
 
   static constexpr std::int32_t kNull = -1;
   static constexpr std::int32_t kArity = 4;
   static constexpr std::size_t kHeapMin = 64;
   static constexpr std::size_t kBucketsMin = 64;
-  static constexpr std::size_t kBucketsMax = std::size_t{1} << 22;
+  static constexpr std::size_t kBucketsMax = std::size_t{1} << 22;  // in ring and stretches
+  static constexpr std::size_t kStretchesMin = 4;
   /// A bucket with more events than this, where buckets were cut for one each: time to cut anew.
   static constexpr std::size_t kCrowd = 24;
   /// The same where so many buckets one after the other have more than this each. Chosen.
@@ -188,7 +198,8 @@ class EventQueue {
   struct alignas(64) Line {
     Event<S> event;
     std::int32_t home = kAbsent;
-    std::int32_t place = kNull;  ///< in the heap or the rest; in a bucket: the next slot
+    /// In the heap, the rest or a stretch; in a bucket: the next slot.
+    std::int32_t place = kNull;
     std::int32_t previous = kNull;
   };
 
@@ -216,11 +227,21 @@ class EventQueue {
     if (after < width_) {
       return {kHeap, after < 0 ? 0 : static_cast<std::uint64_t>(after >> coarseness_)};
     }
-    if (after >= lap_) return {kRest, 0};
-    return {beyond_open(static_cast<std::size_t>(after >> shift_)), 0};
+    if (after < ring_) return {beyond_open(static_cast<std::size_t>(after >> shift_)), 0};
+    const Int128 beyond = after - ring_;
+    if (beyond >= reach_) return {kRest, 0};
+    return {home_of(stretch_after(static_cast<std::size_t>(beyond >> stretch_shift_))), 0};
   }
 
-  /// The bucket so many after the open one. REQUIRES: less than a lap.
+  static std::int32_t home_of(std::size_t stretch) {
+    return kFirstStretch - static_cast<std::int32_t>(stretch);
+  }
+  /// The stretch so many after the first.
+  std::size_t stretch_after(std::size_t stretches) const {
+    return (first_stretch_ + stretches) & (later_.stretches() - 1);
+  }
+
+  /// The bucket so many after the open one. REQUIRES: less than a ring.
   std::int32_t beyond_open(std::size_t buckets) const {
     return static_cast<std::int32_t>((index(open_bucket_) + buckets) & last_bucket_);
   }
@@ -232,25 +253,54 @@ class EventQueue {
     Line& line = lines_[index(slot)];
     const std::int32_t from = line.home;
     const std::int32_t place = line.place;
+    const Filing to = filing_of(line.event.at);
     if (from >= 0) {
       unlink(line);
+    } else if (from == to.home && from <= kFirstStretch) {
+      return;
     } else if (from == kRest) {
       close_gap_in_rest(place);
     } else if (from == kAbsent) {
       ++size_;
     }
-    const Filing to = filing_of(line.event.at);
     line.home = to.home;
     if (to.home == kHeap) {
       return from == kHeap ? find_place(place, {to.after, slot}, ids) : push({to.after, slot}, ids);
     }
-    if (to.home == kRest) return from == kHeap ? postpone(slot, place, ids) : add_to_rest(slot);
-    if (to.home == kAbsent) {
+    if (to.home <= kFirstStretch) {
+      file_later(line, slot);
+    } else if (to.home == kRest) {
+      add_to_rest(slot);
+    } else if (to.home == kAbsent) {
       --size_;
     } else {
       link(slot);
     }
     if (from == kHeap) close_gap(place, ids);
+  }
+
+  // In the stretch that is its home.
+  [[gnu::always_inline]] inline void file_later(Line& entering, std::int32_t slot) {
+    entering.place = later_.add(index(kFirstStretch - entering.home), slot);
+    if (LaterEvents::begins_page(entering.place) && later_.is_wasteful(size_)) tidy_up();
+  }
+
+  /// Is what a stretch has for a slot up to date?
+  bool is_in(std::int32_t slot, std::size_t stretch, std::int32_t place) const {
+    const Line& there = lines_[index(slot)];
+    return there.home == home_of(stretch) && there.place == place;
+  }
+
+  // Leaves what is up to date in the stretches, and nothing else.
+  [[gnu::noinline, gnu::cold]] void tidy_up() {
+    for (std::size_t stretch = 0; stretch < later_.stretches(); ++stretch) {
+      later_.take_all(
+          stretch,
+          [](std::int32_t) {},
+          [&](std::int32_t slot, std::int32_t place) {
+            if (is_in(slot, stretch, place)) line(slot).place = later_.add(stretch, slot);
+          });
+    }
   }
 
   // Of the bucket that is its home.
@@ -282,12 +332,6 @@ class EventQueue {
     rest_.push_back(slot);
   }
 
-  template <class Ids>
-  [[gnu::noinline]] void postpone(std::int32_t slot, std::int32_t place, const Ids& ids) {
-    close_gap(place, ids);
-    add_to_rest(slot);
-  }
-
   void close_gap_in_rest(std::int32_t place) {
     const std::int32_t last = rest_.back();
     rest_[index(place)] = last;
@@ -298,10 +342,9 @@ class EventQueue {
   // Some events come into the heap, or closer to it. REQUIRES: the heap is empty, the queue is not.
   template <class Ids>
   void open_next_bucket(const Ids& ids) {
+    if (passed_ > later_.stretches() / 2) return look_through_rest(ids);  // before it could come up
     const std::size_t ahead = next_occupied(1);
-    if (ahead == 0) return cut(ids);
-    // Before the rest could come up.
-    if (slid_ > 0 && slid_ + ahead > buckets_.size() / 2) return look_through_rest(ids);
+    if (ahead == 0) return open_next_stretch(ids);
     open(ahead);
     std::int32_t slot = std::exchange(buckets_[index(open_bucket_)], kNull);
     occupied_[index(open_bucket_) / 64] &= ~(std::uint64_t{1} << (open_bucket_ % 64));
@@ -318,13 +361,65 @@ class EventQueue {
       gather_all();
       return cut(ids);
     }
+    if (ring_ <= half_ring()) file_stretch(ids);
     look_ahead();
   }
 
   void open(std::size_t ahead) {
     open_bucket_ = beyond_open(ahead);
     open_start_ += static_cast<Int128>(ahead) << shift_;
+    ring_ -= static_cast<Int128>(ahead) << shift_;
     slid_ += ahead;
+  }
+
+  Int128 half_ring() const { return static_cast<Int128>(1) << stretch_shift_; }
+
+  // The ring goes on where the first stretch with an entry begins. REQUIRES: the ring is empty.
+  template <class Ids>
+  [[gnu::noinline]] void open_next_stretch(const Ids& ids) {
+    std::size_t ahead = 0;
+    while (ahead < later_.stretches() && later_.is_empty(stretch_after(ahead))) ++ahead;
+    if (ahead == later_.stretches()) return cut(ids);
+    if (passed_ > 0 && passed_ + ahead > later_.stretches() / 2) return look_through_rest(ids);
+    open_start_ += ring_ + (static_cast<Int128>(ahead) << stretch_shift_);
+    slid_ += static_cast<std::size_t>(ring_ >> shift_) + ahead * (buckets_.size() / 2);
+    ring_ = 0;
+    first_stretch_ = stretch_after(ahead);
+    passed_ += ahead;
+    file_stretch(ids);
+    file_stretch(ids);
+  }
+
+  // The ring becomes longer by the first stretch.
+  template <class Ids>
+  [[gnu::noinline]] void file_stretch(const Ids& ids) {
+    const std::size_t stretch = first_stretch_;
+    first_stretch_ = stretch_after(1);
+    ++passed_;
+    ring_ += half_ring();
+    later_.take_all(
+        stretch,
+        [this](std::int32_t slot) { prefetch_line(slot); },
+        [&](std::int32_t slot, std::int32_t place) {
+          if (is_in(slot, stretch, place)) file_anew(slot, ids);
+        });
+  }
+
+  // Of one that is out of wherever it was.
+  template <class Ids>
+  void file_anew(std::int32_t slot, const Ids& ids) {
+    Line& entering = line(slot);
+    const Filing to = filing_of(entering.event.at);
+    entering.home = to.home;
+    if (to.home == kHeap) {
+      push({to.after, slot}, ids);
+    } else if (to.home == kRest) {
+      add_to_rest(slot);
+    } else if (to.home <= kFirstStretch) {
+      entering.place = later_.add(index(kFirstStretch - to.home), slot);
+    } else {
+      link(slot);
+    }
   }
 
   /// How many buckets after the open one the next that holds something is, from the given one on;
@@ -353,7 +448,7 @@ class EventQueue {
     if (then != 0) prefetch(&lines_[index(buckets_[index(beyond_open(then))])]);
   }
 
-  // What is due within a lap by now leaves the rest. REQUIRES: the heap is empty.
+  // What is due soon enough by now leaves the rest. REQUIRES: the heap is empty.
   template <class Ids>
   [[gnu::noinline]] void look_through_rest(const Ids& ids) {
     const bool are_too_wide = released_ > kCrowded * slid_;
@@ -370,9 +465,13 @@ class EventQueue {
     heap_size_ = 0;
     std::fill(buckets_.begin(), buckets_.end(), kNull);
     std::fill(occupied_.begin(), occupied_.end(), 0);
+    for (std::size_t stretch = 0; stretch < later_.stretches(); ++stretch) {
+      later_.take_all(
+          stretch, [](std::int32_t) {}, [](std::int32_t, std::int32_t) {});
+    }
   }
 
-  // Those in the heap and in buckets; `visit` may file them elsewhere.
+  // All but those of the rest; `visit` may make them some of it.
   template <class Visit>
   void for_each_filed(const Visit& visit) const {
     for (std::int32_t place = 0; place < heap_size_; ++place) visit(heap_[index(place)].slot);
@@ -386,13 +485,26 @@ class EventQueue {
         }
       }
     }
+    for (std::size_t stretch = 0; stretch < later_.stretches(); ++stretch) {
+      later_.for_each(stretch, [&](std::int32_t slot, std::int32_t place) {
+        if (is_in(slot, stretch, place)) visit(slot);
+      });
+    }
   }
 
   std::size_t buckets_wanted() const {
     return std::clamp(2 * std::bit_ceil(size_), kBucketsMin, kBucketsMax);
   }
   bool are_too_few_or_many() const {
-    return buckets_.size() < buckets_wanted() || buckets_.size() > 4 * buckets_wanted();
+    return cut_for_ < buckets_wanted() || cut_for_ > 4 * buckets_wanted();
+  }
+  void make_buckets() {
+    cut_for_ = buckets_wanted();
+    buckets_.assign(std::min(cut_for_, kRingMax), kNull);
+    buckets_.shrink_to_fit();
+    occupied_.assign(buckets_.size() / 64, 0);
+    last_bucket_ = buckets_.size() - 1;
+    later_.set_stretches(std::max(kStretchesMin, cut_for_ / (buckets_.size() / 2)));
   }
 
   // All events are in the rest: cuts buckets for them and files them.
@@ -402,17 +514,16 @@ class EventQueue {
     for (const std::int32_t slot : rest_) {
       first = std::min(first, detail::bucket_ticks(event_of(slot).at));
     }
-    if (are_too_few_or_many()) {
-      buckets_.assign(buckets_wanted(), kNull);
-      occupied_.assign(buckets_wanted() / 64, 0);
-      last_bucket_ = buckets_.size() - 1;
-    }
+    if (are_too_few_or_many()) make_buckets();
     shift_ = shift_for(first);
     coarseness_ = std::max(shift_ - 64, 0);
     width_ = static_cast<Int128>(1) << shift_;
-    lap_ = width_ * static_cast<Int128>(buckets_.size());
+    stretch_shift_ = shift_ + std::countr_zero(buckets_.size() / 2);
+    ring_ = 2 * half_ring();
+    reach_ = half_ring() * static_cast<Int128>(later_.stretches());
     open_start_ = first;
     open_bucket_ = 0;
+    first_stretch_ = 0;
     file_rest(ids);
     refiled_.shrink_to_fit();  // that was for all events; the next is for a few
   }
@@ -420,20 +531,11 @@ class EventQueue {
   template <class Ids>
   void file_rest(const Ids& ids) {
     slid_ = 0;
+    passed_ = 0;
     released_ = 0;
     refiled_.swap(rest_);
     rest_.clear();
-    for (const std::int32_t slot : refiled_) {
-      const Filing to = filing_of(event_of(slot).at);
-      line(slot).home = to.home;
-      if (to.home == kHeap) {
-        push({to.after, slot}, ids);
-      } else if (to.home == kRest) {
-        add_to_rest(slot);
-      } else {
-        link(slot);
-      }
-    }
+    for (const std::int32_t slot : refiled_) file_anew(slot, ids);
     refiled_.clear();
   }
 
@@ -447,7 +549,7 @@ class EventQueue {
     }
     const auto middle = after.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(after.begin(), middle, after.begin() + static_cast<std::ptrdiff_t>(count));
-    constexpr int kShiftMax = 96;  // no width beyond 2^32 s, so that a lap fits in 128 bits
+    constexpr int kShiftMax = 96;  // no width beyond 2^32 s, so that 2^22 fit in 128 bits
     const auto half = static_cast<Int128>((rest_.size() + 1) / 2);
     const Int128 gap = *middle / half;
     int shift = 0;
@@ -566,22 +668,28 @@ class EventQueue {
 
   std::vector<Entry> heap_;  // and room for more
   std::int32_t heap_size_ = 0;
-  // The first slot of each; as many as some power of two.
+  // The ring: the first slot of each bucket; as many as some power of two.
   std::vector<std::int32_t> buckets_ = std::vector<std::int32_t>(kBucketsMin, kNull);
   std::vector<std::uint64_t> occupied_ = std::vector<std::uint64_t>(kBucketsMin / 64);
+  LaterEvents later_;  // a power of two of stretches
   std::vector<std::int32_t> rest_;
   std::vector<std::int32_t> refiled_;  // kept for its memory
 
   // In 2^-64 s. At first all events are in the rest.
   Int128 open_start_ = -(static_cast<Int128>(1) << 126);
-  Int128 width_ = 0;    // of a bucket
-  Int128 lap_ = 0;      // of all buckets
-  int shift_ = 0;       // the logarithm of the width
-  int coarseness_ = 0;  // of Filing::after
+  Int128 width_ = 0;       // of a bucket
+  Int128 ring_ = 0;        // from the open bucket's start to the first stretch
+  Int128 reach_ = 0;       // of all stretches
+  int shift_ = 0;          // the logarithm of the width
+  int stretch_shift_ = 0;  // of a stretch
+  int coarseness_ = 0;     // of Filing::after
   std::int32_t open_bucket_ = 0;
   std::size_t last_bucket_ = kBucketsMin - 1;  // told from buckets_, but asked for at every filing
-  std::size_t slid_ = 0;                       // buckets, since the rest was looked through
-  std::size_t released_ = 0;                   // events from buckets, likewise
+  std::size_t first_stretch_ = 0;
+  std::size_t cut_for_ = 0;        // so many buckets, in ring and stretches
+  std::size_t slid_ = 0;           // buckets, since the rest was looked through
+  std::size_t passed_ = 0;         // stretches, likewise
+  std::size_t released_ = 0;       // events from buckets, likewise
   std::int32_t upcoming_ = kNull;  // the first slot of the bucket that is opened next, as known
 };
 

@@ -17,6 +17,8 @@ namespace {
 
 using test::Random;
 using Queue = EventQueue<double>;
+/// With so short a ring that most of a few hundred events are filed in stretches beyond it.
+using QueueOfShortRing = EventQueue<double, 64>;
 
 /// Slot s has id 1000 - s, so that the order of slots is not that of ids.
 const auto kIds = [](std::int32_t slot, const Event<double>& event) {
@@ -97,9 +99,10 @@ TEST(EventQueue, AgreesWithASortedListUnderRandomWork) {
 }
 
 /// Works a queue of `slots` off for a while: each event brings new ones, `step` after the last.
-template <class Step>
+/// Half of the slots keep theirs until they come.
+template <class AnyQueue = QueueOfShortRing, class Step>
 void run_dry_against_a_sorted_list(std::int32_t slots, int rounds, Step&& step) {
-  Queue queue;
+  AnyQueue queue;
   std::map<std::int32_t, Event<double>> reference;
   const auto plan = [&](std::int32_t slot, const Instant& now) {
     Event<double> event{step(now), slot ^ 1, 0, EventKind::DiskDisk};
@@ -121,7 +124,7 @@ void run_dry_against_a_sorted_list(std::int32_t slots, int rounds, Step&& step) 
     ASSERT_GE(queue.event_of(top).at, last);
     last = queue.event_of(top).at;
     plan(top, last);
-    plan((top * 7 + i) % slots, last);
+    plan((top * 7 + i) % (slots / 2), last);
   }
 }
 
@@ -142,14 +145,61 @@ TEST(EventQueue, KeepsItsOrderWithEventsFarBeyondALapAndNever) {
   });
 }
 
-// The ring of buckets turns some twenty times, with ever some events beyond its lap, and a few so
-// far beyond that it turns again and again before they come.
+// The ring of buckets turns again and again, with ever some events beyond all stretches, and a few
+// so far beyond that those turn, too, before they come.
 TEST(EventQueue, KeepsItsOrderWhileItsBucketsGoRoundAndRound) {
   Random random(test::seed_of_run());
-  run_dry_against_a_sorted_list(300, 20'000, [&](const Instant& now) {
-    const double step = -std::log(random.uniform(1e-9, 1));
-    return *later_by(now, random.one_in(50) ? 30 * step : step, 0.0);
-  });
+  const auto step = [&](const Instant& now) {
+    const double wait = -std::log(random.uniform(1e-9, 1));
+    return *later_by(now, random.one_in(50) ? 30 * wait : wait, 0.0);
+  };
+  run_dry_against_a_sorted_list<QueueOfShortRing>(300, 20'000, step);
+  run_dry_against_a_sorted_list<Queue>(300, 20'000, step);
+}
+
+// Nobody's turn comes, so that nothing is ever looked through: the queue has to tidy up what has
+// been rescheduled over and over.
+TEST(EventQueue, KeepsItsOrderAndLittleMemoryWhileTimeStandsStillAndAllIsRescheduled) {
+  Random random(test::seed_of_run());
+  QueueOfShortRing queue;
+  std::map<std::int32_t, Event<double>> reference;
+  constexpr std::int32_t kSlots = 300;
+  const auto plan = [&](std::int32_t slot) {
+    const auto event =
+        event_at(static_cast<std::int64_t>(random.below(1'000'000)), EventKind::DiskDisk, slot ^ 1);
+    queue.admit(slot);
+    queue.set(slot, event, kIds);
+    reference[slot] = event;
+  };
+  for (std::int32_t slot = 0; slot < kSlots; ++slot) plan(slot);
+  for (int again = 0; again < 3; ++again) {
+    static_cast<void>(queue.top(kIds));  // so that buckets are cut
+    for (int i = 0; i < 100'000; ++i) plan(static_cast<std::int32_t>(random.below(kSlots)));
+    EXPECT_LT(queue.entries_kept(), 10'000U);
+  }
+  std::size_t left = 0;
+  queue.for_each([&](std::int32_t) { ++left; });
+  EXPECT_EQ(left, reference.size());
+  while (!reference.empty()) {
+    const std::int32_t top = queue.top(kIds);
+    ASSERT_EQ(queue.event_of(top).at, reference[first_of(reference)].at);
+    queue.erase(top, kIds);
+    reference.erase(top);
+  }
+  EXPECT_TRUE(queue.empty());
+}
+
+// So few that most stretches are empty and are passed together, to where one begins, while some
+// wait beyond them all.
+TEST(EventQueue, KeepsItsOrderWhereFewWaitForTimesOfAllLengths) {
+  Random random(test::seed_of_run());
+  for (int world = 0; world < 200; ++world) {
+    const auto long_wait = static_cast<std::int64_t>(1) << random.below(20);
+    run_dry_against_a_sorted_list(8, 500, [&](const Instant& now) {
+      const std::int64_t wait = random.one_in(2) ? long_wait : 1;
+      return Instant{now.seconds + wait * static_cast<std::int64_t>(random.below(12)), 0};
+    });
+  }
 }
 
 // All wait for one that comes up again and again: most buckets are empty, and what is beyond the

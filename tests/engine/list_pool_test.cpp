@@ -2,7 +2,7 @@
 // Lists in one piece of memory against lists of their own.
 #include "broad_phase/list_pool.hpp"
 
-#include "broad_phase/grow.hpp"
+#include "grow.hpp"
 #include "support/random.hpp"
 
 #include <gtest/gtest.h>

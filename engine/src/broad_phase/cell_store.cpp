@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "broad_phase/cell_store.hpp"
 
-#include "broad_phase/grow.hpp"
+#include "grow.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "broad_phase/list_pool.hpp"
 
-#include "broad_phase/grow.hpp"
+#include "grow.hpp"
 
 #include <algorithm>
 

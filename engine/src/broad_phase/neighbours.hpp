@@ -30,9 +30,9 @@
 #include "broad_phase/aabb_tree.hpp"
 #include "broad_phase/box_grid.hpp"
 #include "broad_phase/disk_cells.hpp"
-#include "broad_phase/grow.hpp"
 #include "broad_phase/list_pool.hpp"
 #include "broad_phase/place.hpp"
+#include "grow.hpp"
 #include "prefetch.hpp"
 #include "screen.hpp"
 
