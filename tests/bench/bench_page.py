@@ -38,7 +38,8 @@ def whole(row, key, factor=1):
 
 def circumstances(results):
     changed = " with changes" if results["engine_changed_since"] else ""
-    return (f"{results['processor']}, {results['cores']} cores; {results['compiler']}, "
+    pages = "pages of 2 MB" if results["large_pages"] else "no pages of 2 MB"
+    return (f"{results['processor']}, {results['cores']} cores, {pages}; {results['compiler']}, "
             f"`{results['flags']}`; commit {results['commit']}{changed}, {results['date']}; "
             f"{results['rounds']} rounds; load {results['load_before']:.1f} before, "
             f"{results['load_after']:.1f} after.")

@@ -16,6 +16,9 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
+# All engines and the daemon get their memory as deploy/run has the daemon get it: in large pages.
+ENVIRONMENT = {**os.environ, "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}
+
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
@@ -59,6 +62,15 @@ def engine_flags(build):
     return "c++", ""
 
 
+def has_large_pages():
+    """Does the system give pages of 2 MB to whoever asks for them?"""
+    try:
+        text = pathlib.Path("/sys/kernel/mm/transparent_hugepage/enabled").read_text()
+    except OSError:
+        return False
+    return "[never]" not in text
+
+
 def circumstances(plan):
     compiler, flags = engine_flags(plan.build)
     changed = output_of("git", "status", "--porcelain", "--untracked-files=no", "--", "engine")
@@ -67,7 +79,7 @@ def circumstances(plan):
             "commit": output_of("git", "rev-parse", "--short=12", "HEAD"),
             "engine_changed_since": bool(changed),
             "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
-            "rounds": plan.rounds, "quick": plan.quick,
+            "large_pages": has_large_pages(), "rounds": plan.rounds, "quick": plan.quick,
             "load_before": os.getloadavg()[0]}
 
 
@@ -86,7 +98,7 @@ def measured(program, options, name):
     with tempfile.NamedTemporaryFile("r", suffix=".json") as out:  # other engines print, too
         command = [program, *options, f"--benchmark_filter=^{literal}$",
                    f"--benchmark_out={out.name}", "--benchmark_out_format=json"]
-        subprocess.run(command, check=True, capture_output=True)
+        subprocess.run(command, check=True, capture_output=True, env=ENVIRONMENT)
         row = json.load(out)["benchmarks"][0]
     if row.get("error_occurred"):
         raise subprocess.CalledProcessError(1, command, row.get("error_message"))
@@ -144,7 +156,8 @@ def daemon(plan):
     before = os.getloadavg()[0]
     with tempfile.NamedTemporaryFile("r", suffix=".json") as out:
         subprocess.run([program, "--seconds", "2" if plan.quick else "6", "--rounds",
-                        str(plan.rounds), "--json", out.name], check=True, capture_output=True)
+                        str(plan.rounds), "--json", out.name], check=True, capture_output=True,
+                       env=ENVIRONMENT)
         return {**json.load(out), "load_before": before, "load_after": os.getloadavg()[0]}
 
 
