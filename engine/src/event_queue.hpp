@@ -10,19 +10,20 @@
 //
 // Source: the calendar of Paul, J. Comput. Phys. 221 (2007) 615. Deviations: bucket numbers are
 // shifted instants, exact integers, so no order is ever decided by rounding; the open bucket is a
-// heap, so that a million events at one instant cost a logarithm each and not a scan, with the
-// instants in its entries, so that comparing touches no other line; the ring is so short that the
-// memory of its events is at hand, and most events are filed far beyond it, where that takes no
-// other line; a bucket that was opened is at once the last of the ring, a stretch that was filed
-// the last of those, so that there is no moment at which all events must be filed anew; width and
-// number of buckets are taken from the events themselves, and again where they no longer suit.
+// heap, so that a million events at one instant cost a logarithm each and not a scan; the ring is
+// so short that the memory of its events is at hand, and most events are filed far beyond it, where
+// that takes no other line; a bucket that was opened is at once the last of the ring, a stretch
+// that was filed the last of those, so that there is no moment at which all events must be filed
+// anew; width and number of buckets are taken from the events themselves, and again where they no
+// longer suit.
 //
 // Invariants: 1. the heap holds every event that is due before the open bucket ends, the ring all
 // others before the first stretch begins, which is half a ring from there or more; those of the
-// rest are due after all stretches as they were when the rest was looked through last; 2. no event
-// stands above an earlier one in the heap; 3. a bit of occupied_ is set where its bucket holds
-// something; 4. who is in a stretch has an entry there, in its place.
+// rest are due after all stretches as they were when the rest was looked through last; 2. a bit of
+// occupied_ is set where its bucket holds something; 3. who is in a stretch has an entry there, in
+// its place.
 
+#include "event_heap.hpp"
 #include "later_events.hpp"
 #include "prefetch.hpp"
 
@@ -106,30 +107,25 @@ class EventQueue {
   /// The slot of the first event. REQUIRES: !empty()
   template <class Ids>
   std::int32_t top(const Ids& ids) {
-    while (heap_size_ == 0) open_next_bucket(ids);
-    return heap_.front().slot;
+    while (heap_.empty()) open_next_bucket(ids);
+    return heap_.slot_at(0);
   }
 
   // For asking for memory ahead.
 
   /// Will top() open a bucket? REQUIRES: !empty()
-  bool is_between_buckets() const { return heap_size_ == 0; }
+  bool is_between_buckets() const { return heap_.empty(); }
   /// Calls visit(slot) for some of those in the open bucket and one in the next, whose events are
   /// at hand.
   template <class Visit>
   void for_each_soon_due(const Visit& visit) const {
     constexpr std::int32_t kSome = 8;
-    for (std::int32_t i = 0; i < std::min(heap_size_, kSome); ++i) visit(heap_[index(i)].slot);
+    for (std::int32_t i = 0; i < std::min(heap_.size(), kSome); ++i) visit(heap_.slot_at(i));
     if (upcoming_ != kNull) visit(upcoming_);
   }
   /// The slot whose turn most likely comes after the first's; -1: none is known.
   std::int32_t second() const {
-    if (heap_size_ < 2) return upcoming_;
-    std::int32_t best = 1;
-    for (std::int32_t i = 2; i < std::min(heap_size_, kArity + 1); ++i) {
-      if (heap_[index(i)].after < heap_[index(best)].after) best = i;
-    }
-    return heap_[index(best)].slot;
+    return heap_.size() < 2 ? upcoming_ : heap_.slot_at(heap_.second());
   }
 
   /// Asks for what the queue knows of a slot; once that has come, for what set() will read of
@@ -150,7 +146,7 @@ class EventQueue {
   }
 
   /// For how many slots it has memory in use, besides that which each has of its own.
-  std::size_t entries_kept() const { return later_.entries_kept() + rest_.size() + heap_.size(); }
+  std::size_t entries_kept() const { return later_.entries_kept() + rest_.size() + heap_.room(); }
 
   /// Makes room for a slot, without an event.
   void admit(std::int32_t slot) {
@@ -182,8 +178,6 @@ class EventQueue {
   static constexpr std::int32_t kFirstStretch = -4;
 
   static constexpr std::int32_t kNull = -1;
-  static constexpr std::int32_t kArity = 4;
-  static constexpr std::size_t kHeapMin = 64;
   static constexpr std::size_t kBucketsMin = 64;
   static constexpr std::size_t kBucketsMax = std::size_t{1} << 22;  // in ring and stretches
   static constexpr std::size_t kStretchesMin = 4;
@@ -203,20 +197,30 @@ class EventQueue {
     std::int32_t previous = kNull;
   };
 
-  /// A slot in the heap, with its instant at hand.
-  struct Entry {
-    std::uint64_t after;  ///< Filing::after
-    std::int32_t slot;
-  };
-
   /// Where an event belongs.
   struct Filing {
     std::int32_t home;
-    /// In the heap: how long after the open bucket begins, in 2^-64 s, or in the finest units with
-    /// which a bucket fits in 64 bits; 0 for what is due before. Never less for a later event, so
-    /// that only where two are equal the events themselves need to be compared.
+    /// In the heap (EventHeap::Entry): how long after the open bucket begins, in 2^-64 s, or in the
+    /// finest units with which a bucket fits in 64 bits; 0 for what is due before.
     std::uint64_t after;
   };
+
+  /// What the heap asks for.
+  template <class Ids>
+  struct Heaped {
+    std::vector<Line>& lines;
+    const Ids& ids;
+    bool is_before(std::int32_t a, std::int32_t b) const {
+      return earlier(lines[index(a)].event, a, lines[index(b)].event, b, ids);
+    }
+    void note_place(std::int32_t slot, std::int32_t place) const {
+      lines[index(slot)].place = place;
+    }
+  };
+  template <class Ids>
+  Heaped<Ids> heaped(const Ids& ids) {
+    return {lines_, ids};
+  }
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
   Line& line(std::int32_t slot) { return lines_[index(slot)]; }
@@ -263,12 +267,23 @@ class EventQueue {
     } else if (from == kAbsent) {
       ++size_;
     }
-    line.home = to.home;
-    if (to.home == kHeap) {
-      return from == kHeap ? find_place(place, {to.after, slot}, ids) : push({to.after, slot}, ids);
+    if (from == kHeap && to.home == kHeap) {
+      return heap_.find_place(place, {to.after, slot}, heaped(ids));
     }
-    if (to.home <= kFirstStretch) {
-      file_later(line, slot);
+    file(slot, to, ids);
+    if (from == kHeap) heap_.close_gap(place, heaped(ids));
+  }
+
+  // One that is out of wherever it was.
+  template <class Ids>
+  [[gnu::always_inline]] inline void file(std::int32_t slot, const Filing& to, const Ids& ids) {
+    Line& entering = line(slot);
+    entering.home = to.home;
+    if (to.home == kHeap) {
+      heap_.push({to.after, slot}, heaped(ids));
+    } else if (to.home <= kFirstStretch) {
+      entering.place = later_.add(index(kFirstStretch - to.home), slot);
+      if (LaterEvents::begins_page(entering.place) && later_.is_wasteful(size_)) tidy_up();
     } else if (to.home == kRest) {
       add_to_rest(slot);
     } else if (to.home == kAbsent) {
@@ -276,13 +291,6 @@ class EventQueue {
     } else {
       link(slot);
     }
-    if (from == kHeap) close_gap(place, ids);
-  }
-
-  // In the stretch that is its home.
-  [[gnu::always_inline]] inline void file_later(Line& entering, std::int32_t slot) {
-    entering.place = later_.add(index(kFirstStretch - entering.home), slot);
-    if (LaterEvents::begins_page(entering.place) && later_.is_wasteful(size_)) tidy_up();
   }
 
   /// Is what a stretch has for a slot up to date?
@@ -352,10 +360,10 @@ class EventQueue {
       Line& entering = line(slot);
       const std::int32_t next = entering.place;
       entering.home = kHeap;
-      push({filing_of(entering.event.at).after, slot}, ids);
+      heap_.push({filing_of(entering.event.at).after, slot}, heaped(ids));
       slot = next;
     }
-    const std::size_t released = index(heap_size_);
+    const std::size_t released = index(heap_.size());
     released_ += released;
     if (released > kCrowd && 2 * released_ > size_) {
       gather_all();
@@ -405,21 +413,9 @@ class EventQueue {
         });
   }
 
-  // Of one that is out of wherever it was.
   template <class Ids>
-  void file_anew(std::int32_t slot, const Ids& ids) {
-    Line& entering = line(slot);
-    const Filing to = filing_of(entering.event.at);
-    entering.home = to.home;
-    if (to.home == kHeap) {
-      push({to.after, slot}, ids);
-    } else if (to.home == kRest) {
-      add_to_rest(slot);
-    } else if (to.home <= kFirstStretch) {
-      entering.place = later_.add(index(kFirstStretch - to.home), slot);
-    } else {
-      link(slot);
-    }
+  [[gnu::noinline]] void file_anew(std::int32_t slot, const Ids& ids) {
+    file(slot, filing_of(event_of(slot).at), ids);
   }
 
   /// How many buckets after the open one the next that holds something is, from the given one on;
@@ -462,19 +458,16 @@ class EventQueue {
   // The world has become faster, slower or fuller than the buckets were cut for.
   void gather_all() {
     for_each_filed([this](std::int32_t slot) { add_to_rest(slot); });
-    heap_size_ = 0;
+    heap_.clear();
     std::fill(buckets_.begin(), buckets_.end(), kNull);
     std::fill(occupied_.begin(), occupied_.end(), 0);
-    for (std::size_t stretch = 0; stretch < later_.stretches(); ++stretch) {
-      later_.take_all(
-          stretch, [](std::int32_t) {}, [](std::int32_t, std::int32_t) {});
-    }
+    later_.clear();
   }
 
   // All but those of the rest; `visit` may make them some of it.
   template <class Visit>
   void for_each_filed(const Visit& visit) const {
-    for (std::int32_t place = 0; place < heap_size_; ++place) visit(heap_[index(place)].slot);
+    for (std::int32_t place = 0; place < heap_.size(); ++place) visit(heap_.slot_at(place));
     for (std::size_t word = 0; word < occupied_.size(); ++word) {
       for (std::uint64_t bits = occupied_[word]; bits != 0; bits &= bits - 1) {
         const std::size_t bucket = word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
@@ -557,117 +550,10 @@ class EventQueue {
     return shift;
   }
 
-  template <class Ids>
-  bool before(const Entry& a, const Entry& b, const Ids& ids) const {
-    if (a.after != b.after) return a.after < b.after;
-    return earlier(event_of(a.slot), a.slot, event_of(b.slot), b.slot, ids);
-  }
-
-  void put(std::int32_t place, Entry entry) {
-    heap_[index(place)] = entry;
-    line(entry.slot).place = place;
-  }
-
-  template <class Ids>
-  [[gnu::noinline]] void push(Entry entry, const Ids& ids) {
-    if (index(heap_size_) == heap_.size()) grow_heap();
-    sift_up(heap_size_++, entry, ids);
-  }
-
-  [[gnu::noinline, gnu::cold]] void grow_heap() { heap_.resize(2 * heap_.size() + kHeapMin); }
-
-  /// Fills the gap that an entry of the heap leaves.
-  template <class Ids>
-  [[gnu::noinline]] void close_gap(std::int32_t place, const Ids& ids) {
-    const Entry last = heap_[index(--heap_size_)];
-    if (place != heap_size_) find_place(place, last, ids);
-  }
-
-  /// Puts an entry where it belongs, with a gap in the heap at `place`.
-  template <class Ids>
-  [[gnu::noinline]] void find_place(std::int32_t place, Entry entry, const Ids& ids) {
-    if (place > 0 && before(entry, heap_[index((place - 1) / kArity)], ids)) {
-      sift_up(place, entry, ids);
-    } else {
-      sift_down(place, entry, ids);
-    }
-  }
-
-  // By numbers alone; where two are equal, the rest of the way is gone with a closer look.
-  template <class Ids>
-  void sift_up(std::int32_t place, Entry entry, const Ids& ids) {
-    Entry* const heap = heap_.data();
-    while (place > 0) {
-      const std::int32_t parent = (place - 1) / kArity;
-      const Entry above = heap[index(parent)];
-      if (above.after == entry.after) [[unlikely]]
-        return sift_up_closely(place, entry, ids);
-      if (above.after < entry.after) break;
-      put(place, above);
-      place = parent;
-    }
-    put(place, entry);
-  }
-
-  template <class Ids>
-  [[gnu::noinline]] void sift_up_closely(std::int32_t place, Entry entry, const Ids& ids) {
-    while (place > 0) {
-      const std::int32_t parent = (place - 1) / kArity;
-      if (!before(entry, heap_[index(parent)], ids)) break;
-      put(place, heap_[index(parent)]);
-      place = parent;
-    }
-    put(place, entry);
-  }
-
-  template <class Ids>
-  void sift_down(std::int32_t place, Entry entry, const Ids& ids) {
-    Entry* const heap = heap_.data();
-    const std::int32_t size = heap_size_;
-    for (;;) {
-      const std::int32_t first = kArity * place + 1;
-      if (first >= size) break;
-      const std::int32_t last = std::min(first + kArity, size);
-      Entry least = heap[index(first)];
-      std::int32_t best = first;
-      bool is_tie = false;
-      for (std::int32_t i = first + 1; i < last; ++i) {
-        const Entry other = heap[index(i)];
-        is_tie |= other.after == least.after;
-        best = other.after < least.after ? i : best;
-        least = other.after < least.after ? other : least;
-      }
-      if (is_tie || least.after == entry.after) [[unlikely]]
-        return sift_down_closely(place, entry, ids);
-      if (entry.after < least.after) break;
-      put(place, least);
-      place = best;
-    }
-    put(place, entry);
-  }
-
-  template <class Ids>
-  [[gnu::noinline]] void sift_down_closely(std::int32_t place, Entry entry, const Ids& ids) {
-    for (;;) {
-      const std::int32_t first = kArity * place + 1;
-      if (first >= heap_size_) break;
-      const std::int32_t last = std::min(first + kArity, heap_size_);
-      std::int32_t best = first;
-      for (std::int32_t i = first + 1; i < last; ++i) {
-        if (before(heap_[index(i)], heap_[index(best)], ids)) best = i;
-      }
-      if (!before(heap_[index(best)], entry, ids)) break;
-      put(place, heap_[index(best)]);
-      place = best;
-    }
-    put(place, entry);
-  }
-
   std::vector<Line> lines_;  // of every slot
   std::size_t size_ = 0;
 
-  std::vector<Entry> heap_;  // and room for more
-  std::int32_t heap_size_ = 0;
+  EventHeap heap_;  // of the open bucket
   // The ring: the first slot of each bucket; as many as some power of two.
   std::vector<std::int32_t> buckets_ = std::vector<std::int32_t>(kBucketsMin, kNull);
   std::vector<std::uint64_t> occupied_ = std::vector<std::uint64_t>(kBucketsMin / 64);

@@ -64,6 +64,13 @@ class LaterEvents {
     }
   }
 
+  void clear() {
+    for (std::size_t stretch = 0; stretch < stretches_.size(); ++stretch) {
+      take_all(
+          stretch, [](std::int32_t) {}, [](std::int32_t, std::int32_t) {});
+    }
+  }
+
   /// Is the place the first of a page? The only ones for which more memory is in use than before.
   static bool begins_page(std::int32_t place) { return place % (kPerPage + 1) == 0; }
   /// Is there so much memory in use that most entries must be out of date, where so many slots have

@@ -155,9 +155,9 @@ def daemon(plan):
     print("bench: publish_bench", file=sys.stderr, flush=True)
     before = os.getloadavg()[0]
     with tempfile.NamedTemporaryFile("r", suffix=".json") as out:
-        subprocess.run([program, "--seconds", "2" if plan.quick else "6", "--rounds",
-                        str(plan.rounds), "--json", out.name], check=True, capture_output=True,
-                       env=ENVIRONMENT)
+        subprocess.run([program, "--seconds", "2" if plan.quick else "6", "--pace", "15",
+                        "--rounds", str(plan.rounds), "--json", out.name],
+                       check=True, capture_output=True, env=ENVIRONMENT)
         return {**json.load(out), "load_before": before, "load_after": os.getloadavg()[0]}
 
 

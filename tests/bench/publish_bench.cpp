@@ -5,10 +5,11 @@
 // without the thread of its world, and without what the same threads take for each event when
 // nobody reads frames.
 //
-//   publish_bench [--seconds S] [--rounds N] [--bodies B] [--json FILE]
+//   publish_bench [--seconds S] [--pace S] [--rounds N] [--bodies B] [--json FILE]
 //
-// S (default 4) of each measurement, N (default 3) rounds; figures are medians. B: of that many
-// bodies alone, in place of 10,000 and 100,000. It runs itself as
+// --seconds (default 4): of each measurement; --pace (default: as long): at least, of the one that
+// tells the real-time factor, which is off by some ms in that time; N (default 3) rounds; figures
+// are medians. B: of that many bodies alone, in place of 10,000 and 100,000. It runs itself as
 // `publish_bench raw-frames BODIES` and `publish_bench raw-echo` for the raw counterparts.
 #include "bench/raw_dds.hpp"
 #include "bench/scenes.hpp"
@@ -51,6 +52,7 @@ constexpr auto kWarmUp = std::chrono::milliseconds(1500);
 
 struct Options {
   double seconds = 4;
+  double pace = 0;
   int rounds = 3;
   std::vector<std::size_t> bodies{kCommandBodies, 100'000};
   std::string json;
@@ -144,7 +146,8 @@ tests::GotAnswer status_of(const Process& daemon, WireClient& client) {
   return got;
 }
 
-/// Just after a tick: in between, the simulated time stands still while the real time goes on.
+/// Just after a tick: in between, the simulated time stands still while the real time goes on. When
+/// its work is done, that is, some ms after it was due.
 Look look_at(const Process& daemon, WireClient& client) {
   tests::GotAnswer got = status_of(daemon, client);
   const std::uint64_t tick = got.status->tick;
@@ -178,7 +181,7 @@ struct Stretch {
 };
 
 /// The daemon's world goes on while the raw writer is measured, so that both have the same company.
-Figures frame_cost(const std::string& scene, std::size_t bodies, Seconds seconds) {
+Figures frame_cost(const std::string& scene, std::size_t bodies, Seconds seconds, Seconds pace) {
   Process daemon(tests::stossd(
       kDomain,
       {"--scene", scene, "--world", kWorld, "--frame-rate", std::to_string(kFramesPerSecond)}));
@@ -193,7 +196,7 @@ Figures frame_cost(const std::string& scene, std::size_t bodies, Seconds seconds
   FrameReader frames(client);
   frames.states_in(kWarmUp);
   const Look before = look_at(daemon, client);
-  const double states = frames.states_in(seconds);
+  const double states = frames.states_in(std::max(seconds, pace));
   const Look after = look_at(daemon, client);
 
   const Stretch quiet(alone, alone_after);
@@ -315,7 +318,7 @@ int run(const Options& options) {
     const std::string scene = write_scene(bodies);
     std::vector<Figures> rounds, commands;
     for (int round = 0; round < options.rounds; ++round) {
-      rounds.push_back(frame_cost(scene, bodies, seconds));
+      rounds.push_back(frame_cost(scene, bodies, seconds, Seconds(options.pace)));
       if (bodies == kCommandBodies) commands.push_back(command_cost(scene, seconds));
     }
     std::filesystem::remove(scene);
@@ -338,8 +341,9 @@ int run(const Options& options) {
 }
 
 int usage() {
-  std::fputs("usage: publish_bench [--seconds S] [--rounds N] [--bodies B] [--json FILE]\n",
-             stderr);
+  std::fputs(
+      "usage: publish_bench [--seconds S] [--pace S] [--rounds N] [--bodies B] [--json FILE]\n",
+      stderr);
   return 2;
 }
 
@@ -351,6 +355,8 @@ int main_of(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
     if (words[i] == "--seconds") {
       options.seconds = std::strtod(words[i + 1].c_str(), nullptr);
+    } else if (words[i] == "--pace") {
+      options.pace = std::strtod(words[i + 1].c_str(), nullptr);
     } else if (words[i] == "--rounds") {
       options.rounds = std::atoi(words[i + 1].c_str());
     } else if (words[i] == "--bodies") {
@@ -361,7 +367,9 @@ int main_of(const std::vector<std::string>& words) {
       return usage();
     }
   }
-  if (!(options.seconds > 0) || options.rounds < 1 || options.bodies.front() == 0) return usage();
+  if (!(options.seconds > 0) || !(options.pace >= 0) || options.rounds < 1 ||
+      options.bodies.front() == 0)
+    return usage();
   return run(options);
 }
 
