@@ -441,7 +441,7 @@ class EventQueue {
     if (ahead == 0) return;
     upcoming_ = buckets_[index(beyond_open(ahead))];
     const std::size_t then = next_occupied(ahead + 1);
-    if (then != 0) prefetch(&lines_[index(buckets_[index(beyond_open(then))])]);
+    if (then != 0) prefetch_line(buckets_[index(beyond_open(then))]);
   }
 
   // What is due soon enough by now leaves the rest. REQUIRES: the heap is empty.
