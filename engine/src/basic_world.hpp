@@ -210,6 +210,7 @@ class BasicWorld final : public WorldCore {
   bool may_meet_at(
       Slot slot, const Glance& here, Slot other, const Glance& there, double horizon) const;
   void predict(Slot slot, bool changed);
+  void predict_both(Slot a, Slot b);
   void predict_closely(Slot slot, bool changed);
   void renew_box(Slot slot, double margin);
   bool cross(Slot slot);
@@ -222,6 +223,8 @@ class BasicWorld final : public WorldCore {
   // basic_world_sights.hpp
   bool has_sights() const;
   void foresee(Slot slot, bool changed);
+  void foresee_both(Slot a, Slot b);
+  double look_ahead(Slot slot, bool changed, const SightClock& clock, Foresight& ahead);
   bool foresee_newcomers(Slot slot, const Event<S>& crossing);
   void look_at_all(Slot slot,
                    std::span<const Slot> list,
@@ -260,7 +263,7 @@ class BasicWorld final : public WorldCore {
   void renew_sight(Slot slot);
   bool falls_freely(Slot slot) const;
   Sight sight_of_falling(Slot slot) const;
-  SightClock read_sight_clock();
+  SightClock read_sight_clock() const;
   void begin_epoch();
   double seconds_of(double run, const SightClock& clock) const;
   Common common_to_sights(const SightClock& clock) const;

@@ -388,8 +388,7 @@ void BasicWorld<S, Laws>::resolve(const Contact& contact,
   ++counters_.collisions;
   if (outcome.regularised) ++counters_.regularised;
   prefetch_cells_of_second_event();
-  if (a.is_dynamic()) predict(contact.a, /*changed=*/true);
-  if (b.is_dynamic()) predict(contact.b, /*changed=*/true);
+  predict_both(contact.a, contact.b);
   if (sink == nullptr) return;
   Collision collision = describe(contact, instant, outcome);
   for (const Slot slot : {contact.a, contact.b}) {

@@ -349,6 +349,15 @@ void BasicWorld<S, Laws>::predict(Slot slot, bool changed) {
   has_sights() ? foresee(slot, changed) : predict_closely(slot, changed);
 }
 
+// Two bodies that have met, of which one may give way alone.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::predict_both(Slot a, Slot b) {
+  const bool is_a = at(a).is_dynamic(), is_b = at(b).is_dynamic();
+  if (is_a && is_b && has_sights()) return foresee_both(a, b);
+  if (is_a) predict(a, /*changed=*/true);
+  if (is_b) predict(b, /*changed=*/true);
+}
+
 // By the kernels: the event is exact.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::predict_closely(Slot slot, bool changed) {

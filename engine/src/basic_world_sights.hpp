@@ -33,9 +33,34 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
   if (changed && neighbours_.is_overworked(slot)) renew_box(slot, next_margin(slot));
   const SightClock clock = read_sight_clock();
-  const Seen& own = bodies_.sight(slot);
-  const double renewal = time_to_renewal(slot, own, clock);
   Foresight ahead;
+  const double renewal = look_ahead(slot, changed, clock, ahead);
+  schedule(slot, ahead, renewal);
+}
+
+// The same for two that have both changed: nothing is scheduled until both have looked, so that the
+// processor need not wait for what one will find before it looks for the other.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::foresee_both(Slot a, Slot b) {
+  if (neighbours_.is_overworked(a)) renew_box(a, next_margin(a));
+  if (neighbours_.is_overworked(b)) renew_box(b, next_margin(b));
+  const SightClock clock = read_sight_clock();
+  Foresight ahead_of_a;
+  Foresight ahead_of_b;
+  const double renewal_of_a = look_ahead(a, /*changed=*/true, clock, ahead_of_a);
+  const double renewal_of_b = look_ahead(b, /*changed=*/true, clock, ahead_of_b);
+  schedule(a, ahead_of_a, renewal_of_a);
+  schedule(b, ahead_of_b, renewal_of_b);
+}
+
+// What the body has before it; returns its renewal, s from now.
+template <class S, class Laws>
+double BasicWorld<S, Laws>::look_ahead(Slot slot,
+                                       bool changed,
+                                       const SightClock& clock,
+                                       Foresight& ahead) {
+  ++sights_.uses;
+  const double renewal = time_to_renewal(slot, bodies_.sight(slot), clock);
   if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
   if (at(slot).is_dynamic()) {
     look_at_listed(slot, changed, clock, renewal, ahead);
@@ -47,7 +72,7 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
     });
   }
   neighbours_.note_work(slot);
-  schedule(slot, ahead, renewal);
+  return renewal;
 }
 
 // A disk has crossed to another cell: what it had before it stands, and newcomers join. False if
@@ -55,6 +80,7 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::foresee_newcomers(Slot slot, const Event<S>& crossing) {
   if (!(crossing.until_guess >= 0) || !has_sights()) return false;
+  ++sights_.uses;
   const SightClock clock = read_sight_clock();
   const double smallest_held = bodies_.sight(slot).size * (1.0 / kHolderRatioMax);
   Foresight ahead;
@@ -414,8 +440,7 @@ void BasicWorld<S, Laws>::sharpen(Slot slot) {
 
 /// The present as sights count it.
 template <class S, class Laws>
-[[gnu::always_inline]] inline auto BasicWorld<S, Laws>::read_sight_clock() -> SightClock {
-  ++sights_.uses;
+[[gnu::always_inline]] inline auto BasicWorld<S, Laws>::read_sight_clock() const -> SightClock {
   const double now = rough_seconds(now_, sights_.epoch.begin);
   SightClock clock;
   clock.now = now;

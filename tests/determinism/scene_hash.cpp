@@ -28,6 +28,7 @@ std::unique_ptr<WorldCore> make_effects_core<long double>(const WorldOptions&) {
 // NOLINTBEGIN(bugprone-suspicious-include)
 #include "broad_phase/aabb_tree.cpp"
 #include "broad_phase/box_grid.cpp"
+#include "broad_phase/cell_side.cpp"
 #include "broad_phase/cell_store.cpp"
 #include "broad_phase/disk_cells.cpp"
 #include "broad_phase/list_pool.cpp"

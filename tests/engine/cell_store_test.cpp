@@ -167,7 +167,7 @@ TEST(CellStore, KeepsANumberForWhatIsInNoCell) {
   EXPECT_FALSE(store.knows(3));
 }
 
-TEST(CellStore, CountsLooksByLevel) {
+TEST(CellStore, CountsWorkByLevel) {
   CellStore store;
   store.insert(0, {0, 0, 5});
   store.insert(1, {1, 0, 5});
@@ -175,9 +175,11 @@ TEST(CellStore, CountsLooksByLevel) {
   std::vector<std::int32_t> room(2 + kWrittenBeyond);
   store.collect_around(0, room.data());
   store.collect_around(1, room.data());
-  EXPECT_EQ(store.take_looks(6), 0U);
-  EXPECT_EQ(store.take_looks(5), 2U);
-  EXPECT_EQ(store.take_looks(5), 0U);
+  EXPECT_EQ(store.take_work(6).searches, 0);
+  const CellWork work = store.take_work(5);
+  EXPECT_EQ(work.searches, 2);
+  EXPECT_EQ(work.looks, 2);
+  EXPECT_EQ(store.take_work(5).searches, 0);
 }
 
 }  // namespace

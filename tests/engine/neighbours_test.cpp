@@ -123,8 +123,9 @@ TEST(Neighbours, NewcomersAreThoseThatWereNotKnown) {
     const auto slot = static_cast<Slot>(random.below(60));
     const auto before = neighbours.of(slot);
     const std::vector<Slot> known(before.begin(), before.end());
-    const Neighbours::Anchor at = neighbours.leeway(slot).anchor;
-    const double x = at.x + random.uniform(-1.2, 1.2), y = at.y + random.uniform(-1.2, 1.2);
+    const auto [at, margin] = neighbours.leeway(slot);
+    const double x = at.x + random.uniform(-2, 2) * margin;
+    const double y = at.y + random.uniform(-2, 2) * margin;
     if (!neighbours.cross(slot, x, y, interacts_with(slot))) {
       renew(slot, x, y);
       continue;

@@ -141,13 +141,15 @@ std::int32_t CellStore::some_item_of(std::int32_t level) {
   return kNone;
 }
 
-std::uint64_t CellStore::take_looks(std::int32_t level) {
-  std::uint64_t looks = 0;
+CellWork CellStore::take_work(std::int32_t level) {
+  CellWork work;
   for (const std::int32_t block : table_) {
     if (block == kNone || heads_[index(block)].level != level) continue;
-    looks += std::exchange(heads_[index(block)].looks, 0U);
+    const std::uint64_t looks = std::exchange(heads_[index(block)].looks, 0U);
+    work.searches += static_cast<double>(looks / kOneSearch);
+    work.looks += static_cast<double>(looks % kOneSearch);
   }
-  return looks;
+  return work;
 }
 
 std::int32_t CellStore::make_block(const Cell& key) {
@@ -162,7 +164,7 @@ std::int32_t CellStore::make_block(const Cell& key) {
     free_blocks_.pop_back();
   }
   const PooledList inherited = heads_[index(block)].note.list;
-  heads_[index(block)] = {key.x, key.y, key.level, 0, 0, {}, 0, {0, inherited}};
+  heads_[index(block)] = {key.x, key.y, key.level, 0, 0, 0, {}, {0, inherited}};
   if (2 * ++entries_ > table_.size()) resize_table(2 * table_.size());
   table_[entry_of(key)] = block;
   link(block, block);

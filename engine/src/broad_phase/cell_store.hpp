@@ -9,6 +9,7 @@
 // Invariants: 1. a block in the table holds at least one item; 2. where a cell's second place is
 // empty nothing hangs behind it, and where the first is empty the second is.
 
+#include "broad_phase/cell_side.hpp"
 #include "broad_phase/list_pool.hpp"
 #include "broad_phase/three_cells.hpp"
 #include "prefetch.hpp"
@@ -139,7 +140,7 @@ class CellStore {
     }
     constexpr std::uint64_t kNineCells = 0x070707;
     const Head& head = heads_[cell / kBlockCells];
-    head.looks += static_cast<std::uint32_t>(to - start);
+    head.looks += kOneSearch + static_cast<std::uint64_t>(to - start);
     const std::uint64_t crowded = head.crowded & (kNineCells << corner);
     return crowded == 0 ? to : collect_hanging(cell / kBlockCells, crowded, item, to);
   }
@@ -224,9 +225,9 @@ class CellStore {
   /// has stopped.
   std::int32_t some_item_of(std::int32_t level);
 
-  /// How many items collect_around() has written for those of a level, as far as is known, since
-  /// the last call for it.
-  std::uint64_t take_looks(std::int32_t level);
+  /// How often collect_around() was called for items of a level, and how many it has written, as
+  /// far as is known, since the last call for it.
+  CellWork take_work(std::int32_t level);
   /// More than the cells that a search of all blocks looks at.
   double cells_max() const { return static_cast<double>(kBlockCells * table_.size()); }
 
@@ -252,15 +253,17 @@ class CellStore {
     std::int64_t x = 0;  ///< the block's numbers along the axes
     std::int64_t y = 0;
     std::int32_t level = 0;
-    mutable std::uint32_t looks = 0;
+    std::int32_t items = 0;
+    /// At items, by collect_around(); and from kOneSearch on how often it was called.
+    mutable std::uint64_t looks = 0;
     std::uint64_t crowded = 0;             ///< a bit for each cell with items behind its second
     std::array<std::int32_t, 9> beside{};  ///< the blocks around it, itself in the middle
-    std::int32_t items = 0;
     Note note;
 
     Cell key() const { return {x, y, level}; }
   };
   static_assert(sizeof(Head) == 96);
+  static constexpr std::uint64_t kOneSearch = std::uint64_t{1} << 32;
   static std::size_t beside(std::int64_t dx, std::int64_t dy) {
     return static_cast<std::size_t>(3 * dy + dx + 4);
   }
@@ -385,7 +388,7 @@ class CellStore {
       };
       to = take_three(places(columns[0]), places(columns[1]), places(columns[2]), item, to);
     }
-    head.looks += static_cast<std::uint32_t>(to - start);
+    head.looks += kOneSearch + static_cast<std::uint64_t>(to - start);
     const bool is_crowded =
         is_crowded_around(head, static_cast<std::size_t>(x), static_cast<std::size_t>(y));
     return is_crowded ? collect_hanging_around(item, to) : to;

@@ -6,26 +6,12 @@
 #include <utility>
 
 namespace stoss::engine {
-namespace {
-
-/// What it costs to bring a disk to another cell, in looks at a neighbour. Measured; within a
-/// factor of two it hardly matters.
-constexpr double kCrossing = 20;
-
-/// About the cube root of a ratio of works; from 1/2 to 4.
-double balanced_by(double ratio) {
-  double longer = 0.5;
-  while (longer * longer * longer < ratio && longer < 4) longer *= 1.05;
-  return longer;
-}
-
-}  // namespace
 
 bool DiskCells::enter(std::int32_t disk, double x, double y, double radius, double least) {
   Level* const level = level_for(radius);
   if (level == nullptr) return false;
   const auto cell = cell_at(*level, x, y);
-  if (!cell || !(least < kBeyond * level->side)) {
+  if (!cell || !(least < level->cage_half - level->side / 2)) {
     if (level->items == 0) std::erase_if(levels_, [](const Level& l) { return l.items == 0; });
     return false;
   }
@@ -70,6 +56,9 @@ DiskCells::Level& DiskCells::make_level(double radius_max, double side) {
   level.side = side;
   level.inverse = 1 / side;
   level.radius_max = radius_max;
+  const double beyond = beyond_cell(radius_max, side) * side;
+  level.cage_half = side / 2 + beyond;
+  level.reach = beyond + radius_max;
   levels_.push_back(level);
   return levels_.back();
 }
@@ -113,30 +102,27 @@ std::int32_t DiskCells::straggler_of_some_level() {
 
 void DiskCells::note_bystander(const Aabb& box) {
   for (const Level& level : levels_) {
-    if (!store_.forget_notes(cells_beside(level, box, 2 * kRounding), level.id)) {
+    if (!store_.forget_notes(cells_beside(level, box, 2 * kCellRounding), level.id)) {
       ++changes_;
       return;
     }
   }
 }
 
-// Are the cells of a level too small or too large? With sides f times as long there are 1 / f times
-// as many crossings and f^2 times as many looks: together they cost least where the crossings' part
-// is twice the other.
+// Are the cells of a level too small or too large?
 void DiskCells::look_after(Level& level) {
   constexpr std::uint64_t kOften = 2;  // crossings a disk
   if (level.is_retired ||
       level.crossings < 256 + kOften * static_cast<std::uint64_t>(level.items)) {
     return;
   }
-  const auto crossings = static_cast<double>(std::exchange(level.crossings, 0));
-  const auto looks = static_cast<double>(store_.take_looks(level.id));
+  CellWork work = store_.take_work(level.id);
+  work.crossings = static_cast<double>(std::exchange(level.crossings, 0));
   for (const Level& other : levels_) {  // most have not come over yet: too soon to tell
     if (other.is_retired && other.items > level.items / 8) return;
   }
-  const double side = std::max(level.side * balanced_by(kCrossing * crossings / (2 * (looks + 1))),
-                               least_side(level.radius_max));
-  constexpr double kEnough = 1.25;
+  const double side = best_side(level.radius_max, level.side, work);
+  constexpr double kEnough = 1.12;
   if (side < kEnough * level.side && level.side < kEnough * side) return;
   level.is_retired = true;
   make_level(level.radius_max, side);  // `level` is no longer valid

@@ -8,13 +8,10 @@
 // unless their cells are neighbours: whom a disk may meet is read off nine cells, and when it has
 // crossed to another, those that are new to it off three or five.
 //
-//   W (1 - 2 s) >= 2 r      W: side of a cell [m]; s: the part of it that a cage is wider, on each
-//                           side; r: the largest radius of the level [m]                      (1)
-//
-// Levels are made for the sizes that come. Where disks fly far, cells are larger than (1) asks:
-// their sides follow the work, crossings against looks at neighbours. When a level's are found too
-// large or too small, a level with better ones takes its place, and each disk moves there when it
-// next crosses a side.
+// Levels are made for the sizes that come. Where disks fly far, cells are larger than they must be:
+// their sides follow the work, crossings against looks at neighbours (cell_side.hpp). When a
+// level's are found too large or too small, a level with better ones takes its place, and each disk
+// moves there when it next crosses a side.
 //
 // What else stands near, in no cell, is known block by block (bystanders), and asked for anew only
 // where something has come or gone.
@@ -24,6 +21,7 @@
 // Deviation: only what is new to a disk is looked at when it crosses.
 
 #include "broad_phase/aabb.hpp"
+#include "broad_phase/cell_side.hpp"
 #include "broad_phase/cell_store.hpp"
 #include "broad_phase/list_pool.hpp"
 #include "broad_phase/place.hpp"
@@ -93,7 +91,7 @@ class DiskCells {
       search(box_of_block(level, key), asked_);
       noted_.clear();
       for (std::size_t i = 0; i < std::min(asked_.size(), kManyBystanders); ++i) {
-        const CellStore::Range cells = cells_beside(level, box_of(asked_[i]), kRounding);
+        const CellStore::Range cells = cells_beside(level, box_of(asked_[i]), kCellRounding);
         note_down(asked_[i], CellStore::bits_within(cells, key.x, key.y));
       }
       lists_.assign(note->list, noted_);
@@ -197,13 +195,15 @@ class DiskCells {
     double side = 1;        ///< m, of a cell
     double inverse = 1;     ///< 1 / side
     double radius_max = 0;  ///< m
+    double cage_half = 1;   ///< m; of a cage, half its side
+    double reach = 0;       ///< m; of a disk in its cage, beyond its cell's sides
     bool is_retired = false;
     std::uint64_t crossings = 0;  ///< from cell to cell, since they were last looked at
   };
 
   template <class Visit>
   void find_on(const Level& level, const Aabb& box, const Visit& visit) const {
-    const double beyond = (kBeyond + kRounding) * level.side + level.radius_max;
+    const double beyond = level.reach + kCellRounding * level.side;
     const double left = (box.low_x - beyond) * level.inverse;
     const double low = (box.low_y - beyond) * level.inverse;
     const double right = (box.high_x + beyond) * level.inverse;
@@ -238,19 +238,16 @@ class DiskCells {
   }
   /// The cells whose cages, with their disks, a box may overlap. `rounding`: in sides of cells.
   static CellStore::Range cells_beside(const Level& level, const Aabb& box, double rounding) {
-    const double beyond = (kBeyond + rounding) * level.side + level.radius_max;
+    const double beyond = level.reach + rounding * level.side;
     return {CellStore::floor_of((box.low_x - beyond) * level.inverse),
             CellStore::floor_of((box.low_y - beyond) * level.inverse),
             CellStore::floor_of((box.high_x + beyond) * level.inverse),
             CellStore::floor_of((box.high_y + beyond) * level.inverse)};
   }
 
-  static double least_side(double radius_max) {
-    return 2 * radius_max / (1 - 2 * kBeyond - 2 * kRounding);
-  }
   static Aabb box_of_block(const Level& level, const Cell& key) {
     const double side = static_cast<double>(CellStore::kBlockSide) * level.side;
-    const double reach = (kBeyond + kRounding) * level.side + level.radius_max;
+    const double reach = level.reach + kCellRounding * level.side;
     const double x = static_cast<double>(key.x) * side;
     const double y = static_cast<double>(key.y) * side;
     return {x - reach, y - reach, x + side + reach, y + side + reach};
@@ -265,7 +262,7 @@ class DiskCells {
   static Cage cage_in(const Level& level, const Cell& cell) {
     return {(static_cast<double>(cell.x) + 0.5) * level.side,
             (static_cast<double>(cell.y) + 0.5) * level.side,
-            (0.5 + kBeyond) * level.side};
+            level.cage_half};
   }
   Level& level_of(std::int32_t id) {
     std::size_t i = 0;
@@ -284,10 +281,7 @@ class DiskCells {
   }
   std::int32_t straggler_of_some_level();
 
-  static constexpr double kBeyond = 1.0 / 32;  // s in (1)
   static constexpr double kNumberMax = 0x1p40;
-  /// In sides of cells, of places whose cells have numbers up to kNumberMax; and much more.
-  static constexpr double kRounding = 0x1p-9;
 
   CellStore store_;
   std::vector<Level> levels_;  // few
