@@ -111,7 +111,7 @@ void DiskCells::note_bystander(const Aabb& box) {
 
 // Are the cells of a level too small or too large?
 void DiskCells::look_after(Level& level) {
-  constexpr std::uint64_t kOften = 2;  // crossings a disk
+  constexpr std::uint64_t kOften = 1;  // crossings a disk
   if (level.is_retired ||
       level.crossings < 256 + kOften * static_cast<std::uint64_t>(level.items)) {
     return;
@@ -122,7 +122,7 @@ void DiskCells::look_after(Level& level) {
     if (other.is_retired && other.items > level.items / 8) return;
   }
   const double side = best_side(level.radius_max, level.side, work);
-  constexpr double kEnough = 1.12;
+  constexpr double kEnough = 1.25;
   if (side < kEnough * level.side && level.side < kEnough * side) return;
   level.is_retired = true;
   make_level(level.radius_max, side);  // `level` is no longer valid
