@@ -366,10 +366,8 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::resolve(const Contact& contact,
                                   const Time<S>& instant,
                                   CollisionSink* sink) {
-  auto&& a = at(contact.a);
-  auto&& b = at(contact.b);
-  const Time<S> before_a = a.since();
-  const Time<S> before_b = b.since();
+  const Time<S> before_a = at(contact.a).since();
+  const Time<S> before_b = at(contact.b).since();
   const ContactOutcome outcome = impulse_of(contact, instant);
   const auto kick = [&](Slot slot, const DoubleWord2<S>& delta, const DoubleWord<S>& spin) {
     auto&& body = at(slot);

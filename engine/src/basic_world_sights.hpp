@@ -42,8 +42,9 @@ void BasicWorld<S, Laws>::foresee(Slot slot, bool changed) {
 // processor need not wait for what one will find before it looks for the other.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::foresee_both(Slot a, Slot b) {
-  if (neighbours_.is_overworked(a)) renew_box(a, next_margin(a));
-  if (neighbours_.is_overworked(b)) renew_box(b, next_margin(b));
+  for (const Slot slot : {a, b}) {
+    if (neighbours_.is_overworked(slot)) renew_box(slot, next_margin(slot));
+  }
   const SightClock clock = read_sight_clock();
   Foresight ahead_of_a;
   Foresight ahead_of_b;

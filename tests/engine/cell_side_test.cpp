@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stoss::engine {
@@ -46,7 +47,7 @@ CellWork work_of_walk(Random& random, double radius, double side, double step, d
 }
 
 double cost_of(const CellWork& work) {
-  return 30 * work.crossings + work.looks * (1 + work.crossings / work.searches / 3);
+  return kCrossingLooks * work.crossings + work.looks * (1 + work.crossings / work.searches / 3);
 }
 
 TEST(CellSide, TheBestCostsHardlyMoreThanAnyOther) {

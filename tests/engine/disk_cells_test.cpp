@@ -128,7 +128,7 @@ TEST(DiskCells, CagesApartByTwoCellsLeaveRoomForTwoDisks) {
   for (int i = 0; i < 1000; ++i) {
     DiskCells cells;
     const double radius = random.decades(-9, 9);
-    const double far = radius * random.decades(0, 9);
+    const double far = radius * random.decades(0, 11);
     ASSERT_TRUE(cells.enter(0, far, 0, radius, 0));
     if (random.one_in(2)) fly(cells, 0, radius, static_cast<int>(random.below(2000)));
     const DiskCells::Cage a = cells.cage_of(0);

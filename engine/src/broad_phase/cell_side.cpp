@@ -6,8 +6,6 @@
 namespace stoss::engine {
 namespace {
 
-/// c in (3). Measured; within a factor of two it hardly matters.
-constexpr double kCrossing = 30;
 /// In (2).
 constexpr double kSteps = 1.6;
 
@@ -35,7 +33,7 @@ double best_side(double radius_max, double side, const CellWork& work) {
   const auto cost = [&](double larger) {
     const double area = larger * larger;
     const double q = crossings_a_search(way, radius_max, larger * side);
-    return q * (kCrossing + area * found / 3) + area * found;
+    return q * (kCrossingLooks + area * found / 3) + area * found;
   };
   constexpr double kStep = 1.05;
   double best = std::max(0.5, least_side(radius_max) / side);

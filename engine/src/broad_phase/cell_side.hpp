@@ -16,8 +16,9 @@
 // with the l that the crossings of late give by (2).
 //
 // Source: (1) as in Bannerman, Sargant, Lue, J. Comput. Chem. 32 (2011) 3329. (2) is an estimate: a
-// walk with steps l between two sides that are 2 s W apart; 1.6 fits gases at area fractions from
-// 0.02 to 0.7. Any sides give the same events, by (1): tests/engine/cell_side_test.cpp.
+// walk with steps l between two sides that are 2 s W apart; 1.6 is fitted to a gas at an area
+// fraction of 0.3, and suits one at 0.7. Any sides give the same events, by (1):
+// tests/engine/cell_side_test.cpp.
 
 #include <algorithm>
 
@@ -25,6 +26,8 @@ namespace stoss::engine {
 
 /// In sides of cells, of places whose cells have numbers up to 2^40; and much more.
 inline constexpr double kCellRounding = 0x1p-9;
+/// c in (3). Measured; within a factor of two it hardly matters.
+inline constexpr double kCrossingLooks = 30;
 /// s in (1).
 inline constexpr double kBeyondLeast = 1.0 / 32;
 inline constexpr double kBeyondMost = 1.0 / 4;

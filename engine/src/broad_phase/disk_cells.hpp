@@ -203,20 +203,10 @@ class DiskCells {
 
   template <class Visit>
   void find_on(const Level& level, const Aabb& box, const Visit& visit) const {
-    const double beyond = level.reach + kCellRounding * level.side;
-    const double left = (box.low_x - beyond) * level.inverse;
-    const double low = (box.low_y - beyond) * level.inverse;
-    const double right = (box.high_x + beyond) * level.inverse;
-    const double high = (box.high_y + beyond) * level.inverse;
-    if (!((right - left) * (high - low) <= 64 + store_.cells_max())) {
-      return store_.for_each(level.id, visit);
-    }
-    store_.for_each({CellStore::floor_of(left),
-                     CellStore::floor_of(low),
-                     CellStore::floor_of(right),
-                     CellStore::floor_of(high)},
-                    level.id,
-                    visit);
+    const Aabb near = box_beside(level, box, kCellRounding);
+    const double cells = (near.high_x - near.low_x) * (near.high_y - near.low_y);
+    if (!(cells <= 64 + store_.cells_max())) return store_.for_each(level.id, visit);
+    store_.for_each(cells_in(near), level.id, visit);
   }
 
   // Of a body beside a block it is noted near which of its cells it may be, one bit each.
@@ -236,13 +226,24 @@ class DiskCells {
     words[0] = body;
     std::memcpy(words + 1, &cells, sizeof cells);
   }
-  /// The cells whose cages, with their disks, a box may overlap. `rounding`: in sides of cells.
-  static CellStore::Range cells_beside(const Level& level, const Aabb& box, double rounding) {
+  /// A box and what disks in their cages reach beyond their cells, in sides of cells. `rounding`:
+  /// as much more.
+  static Aabb box_beside(const Level& level, const Aabb& box, double rounding) {
     const double beyond = level.reach + rounding * level.side;
-    return {CellStore::floor_of((box.low_x - beyond) * level.inverse),
-            CellStore::floor_of((box.low_y - beyond) * level.inverse),
-            CellStore::floor_of((box.high_x + beyond) * level.inverse),
-            CellStore::floor_of((box.high_y + beyond) * level.inverse)};
+    return {(box.low_x - beyond) * level.inverse,
+            (box.low_y - beyond) * level.inverse,
+            (box.high_x + beyond) * level.inverse,
+            (box.high_y + beyond) * level.inverse};
+  }
+  static CellStore::Range cells_in(const Aabb& box) {
+    return {CellStore::floor_of(box.low_x),
+            CellStore::floor_of(box.low_y),
+            CellStore::floor_of(box.high_x),
+            CellStore::floor_of(box.high_y)};
+  }
+  /// The cells whose cages, with their disks, a box may overlap.
+  static CellStore::Range cells_beside(const Level& level, const Aabb& box, double rounding) {
+    return cells_in(box_beside(level, box, rounding));
   }
 
   static Aabb box_of_block(const Level& level, const Cell& key) {
