@@ -41,8 +41,9 @@ using std::chrono::steady_clock;
 constexpr engine::Id kCommandedMax = 9000;
 constexpr engine::Id kAskedFirst = 9001;
 constexpr std::uint64_t kAskedCount = 64;
-/// A full comparison costs a pass over the world, so only every sixth tick is digested.
-constexpr std::uint64_t kDigestEvery = 6;
+/// A full comparison costs a pass over the world, so only every seventh tick is digested: frames
+/// come every third, and some of them are met whichever those are.
+constexpr std::uint64_t kDigestEvery = 7;
 constexpr std::uint64_t kCollisionBlock = 1000;
 constexpr Milliseconds kPatience{20'000};
 
