@@ -159,11 +159,12 @@ class BasicWorld final : public WorldCore {
   };
   /// s; sooner, a guess would not be below the resolution of time.
   static constexpr double kNear = 1e-9;
-  /// What a body has before it: bounds of the contacts that it holds with disks, in seconds from
-  /// now, and its first event with a wall.
+  /// What a body has before it: bounds of the contacts that it holds, in seconds from now, and its
+  /// first event of those that no sight shows.
   struct Foresight : SoonestTwo {
     std::optional<Event<S>> exact;
     const Event<S>* standing = nullptr;  ///< the guess that stood before, if any
+    bool has_unseen = false;             ///< of some it is not known by sight when they come
   };
 
   /// Names the offending element of a command in a refusal.
@@ -184,7 +185,7 @@ class BasicWorld final : public WorldCore {
 
   // basic_world_predict.hpp
   bool interacts(Slot a, Slot b) const;
-  bool may_become_close(Slot a, Slot b) const;
+  bool may_become_close(Slot a, const Aabb& box_of_a, Slot b) const;
   bool is_far_from_line(Slot wall, const Aabb& box) const;
   bool holds_prediction(Slot holder, Slot other) const;
   template <class Visit>
@@ -231,16 +232,15 @@ class BasicWorld final : public WorldCore {
                    double smallest,
                    const SightClock& clock,
                    Foresight& ahead) const;
-  void look_at_listed(
-      Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead);
-  void prefetch_sights(Slot slot) const;
-  void look_at_others(Slot slot,
+  void look_at_listed(Slot slot,
                       std::span<const Slot> list,
-                      double smallest,
                       bool changed,
                       const SightClock& clock,
                       double renewal,
                       Foresight& ahead);
+  void prefetch_sights(Slot slot) const;
+  void look_at_others(
+      Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead);
   void look_at_unlike(Slot slot,
                       Slot other,
                       bool changed,
@@ -272,6 +272,7 @@ class BasicWorld final : public WorldCore {
                         double smallest,
                         const SightClock& clock) const;
   double soonest_seen(Slot a, Slot b, const SightClock& clock) const;
+  double soonest_at_wall(Slot disk, Slot wall, const SightClock& clock) const;
   CommonPull common_pull() const;
 
   // basic_world_images.hpp
@@ -537,8 +538,8 @@ class BasicWorld final : public WorldCore {
   /// What all sights have in common.
   struct Sights {
     Epoch<S> epoch;
-    std::uint64_t uses = 0;              ///< in this epoch
-    mutable std::vector<double> bounds;  ///< of contacts with those that were looked at last
+    std::uint64_t uses = 0;                  ///< in this epoch
+    mutable std::vector<PassedOver> others;  ///< of those that were looked at last
   };
   Sights sights_;
 

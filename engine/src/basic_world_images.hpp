@@ -179,7 +179,7 @@ void BasicWorld<S, Laws>::renew_cage(Slot slot, Role role, double margin) {
       tight,
       here,
       {margin, margin, /*may_stand_in_cells=*/false},
-      [this, slot](Slot other) { return interacts(slot, other); },
+      [this, slot](Slot other, const Aabb&) { return interacts(slot, other); },
       [this](const Aabb& box, const auto& visit) { space_.for_each_copy(box, visit); });
 }
 

@@ -30,11 +30,11 @@ bool BasicWorld<S, Laws>::interacts(Slot a, Slot b) const {
 // Of two bodies whose boxes overlap: can they meet before one of them leaves its box? Beside a
 // slanted wall, whose box is wide, disks are told apart by their distance from its line.
 template <class S, class Laws>
-bool BasicWorld<S, Laws>::may_become_close(Slot a, Slot b) const {
+bool BasicWorld<S, Laws>::may_become_close(Slot a, const Aabb& box_of_a, Slot b) const {
   if (!interacts(a, b)) return false;
   if (is_periodic()) return true;
   if (at(a).is_wall()) return !is_far_from_line(a, neighbours_.box_of(b));
-  if (at(b).is_wall()) return !is_far_from_line(b, neighbours_.box_of(a));
+  if (at(b).is_wall()) return !is_far_from_line(b, box_of_a);
   return true;
 }
 
@@ -82,8 +82,9 @@ void BasicWorld<S, Laws>::for_each_neighbour(Slot slot, Visit&& visit) const {
         return;
       }
     }
-    neighbours_.query(neighbours_.box_of(slot), [&](Slot other) {
-      if (may_become_close(slot, other)) visit(other);
+    const Aabb box = neighbours_.box_of(slot);
+    neighbours_.query(box, [&](Slot other) {
+      if (may_become_close(slot, box, other)) visit(other);
     });
   }
 }
@@ -346,7 +347,9 @@ bool BasicWorld<S, Laws>::may_meet_at(
 // its neighbours hold are offered to them.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::predict(Slot slot, bool changed) {
-  has_sights() ? foresee(slot, changed) : predict_closely(slot, changed);
+  if (has_sights()) return foresee(slot, changed);
+  if (!all_pairs()) neighbours_.note_work(slot);
+  predict_closely(slot, changed);
 }
 
 // Two bodies that have met, of which one may give way alone.
@@ -383,7 +386,6 @@ void BasicWorld<S, Laws>::predict_closely(Slot slot, bool changed) {
       if (event && earlier(*event, other, theirs, other, ids)) queue_.set(other, *event, ids);
     }
   });
-  if (!all_pairs()) neighbours_.note_work(slot);
   queue_.set(slot, best, ids);
 }
 
@@ -444,12 +446,13 @@ void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
   if (all_pairs()) return;
   const Glance here = glance_of(slot);
   const double least = smallest_margin(slot);
-  neighbours_.renew(slot,
-                    role,
-                    tight_box(slot, here),
-                    here,
-                    {std::max(margin, least), least, /*may_stand_in_cells=*/!Laws::kGrows},
-                    [this, slot](Slot other) { return may_become_close(slot, other); });
+  neighbours_.renew(
+      slot,
+      role,
+      tight_box(slot, here),
+      here,
+      {std::max(margin, least), least, /*may_stand_in_cells=*/!Laws::kGrows},
+      [this, slot](Slot other, const Aabb& box) { return may_become_close(slot, box, other); });
 }
 
 /// Brings a disk that has come to the side of its cell to the next. False, and nothing is done,
@@ -458,9 +461,10 @@ template <class S, class Laws>
 bool BasicWorld<S, Laws>::cross(Slot slot) {
   if (Laws::kGrows || is_periodic() || all_pairs() || !at(slot).is_dynamic()) return false;
   const Glance here = glance_of(slot);
-  return neighbours_.cross(slot, here.x + here.x_low, here.y + here.y_low, [&](Slot other) {
-    return may_become_close(slot, other);
-  });
+  const auto interacts = [&](Slot other, const Aabb& box) {
+    return may_become_close(slot, box, other);
+  };
+  return neighbours_.cross(slot, here.x + here.x_low, here.y + here.y_low, interacts);
 }
 
 }  // namespace stoss::engine

@@ -12,6 +12,7 @@
 #include "prefetch.hpp"
 #include "screen.hpp"
 #include "sight_frames.hpp"
+#include "wall_sight.hpp"
 
 #include <utility>
 
@@ -64,7 +65,7 @@ double BasicWorld<S, Laws>::look_ahead(Slot slot,
   const double renewal = time_to_renewal(slot, bodies_.sight(slot), clock);
   if constexpr (!Laws::kPlain) ahead.exact = own_event(slot);
   if (at(slot).is_dynamic()) {
-    look_at_listed(slot, changed, clock, renewal, ahead);
+    look_at_listed(slot, neighbours_.of(slot), changed, clock, renewal, ahead);
   } else {
     for_each_neighbour(slot, [&](Slot other) {
       bool holds = false;
@@ -83,56 +84,53 @@ bool BasicWorld<S, Laws>::foresee_newcomers(Slot slot, const Event<S>& crossing)
   if (!(crossing.until_guess >= 0) || !has_sights()) return false;
   ++sights_.uses;
   const SightClock clock = read_sight_clock();
-  const double smallest_held = bodies_.sight(slot).size * (1.0 / kHolderRatioMax);
+  const double renewal = time_to_renewal(slot, bodies_.sight(slot), clock);
+  const auto newcomers = neighbours_.newcomers(slot);
   Foresight ahead;
-  look_at_all(slot, neighbours_.newcomers(slot), smallest_held, clock, ahead);
-  if (ahead.has_others) return false;
+  look_at_listed(slot, newcomers, /*changed=*/true, clock, renewal, ahead);
+  if (ahead.has_unseen) return false;
   ahead.standing = &crossing;
   const auto first = static_cast<double>(crossing.until_guess);
   ahead.note(crossing.partner, first);
   ahead.note(crossing.partner, first + static_cast<double>(crossing.clear_for));
-  schedule(slot, ahead, time_to_renewal(slot, bodies_.sight(slot), clock));
+  schedule(slot, ahead, renewal);
   return true;
 }
 
-// The neighbours of a dynamic disk.
+// Neighbours of a dynamic disk.
 template <class S, class Laws>
-void BasicWorld<S, Laws>::look_at_listed(
-    Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead) {
+void BasicWorld<S, Laws>::look_at_listed(Slot slot,
+                                         std::span<const Slot> list,
+                                         bool changed,
+                                         const SightClock& clock,
+                                         double renewal,
+                                         Foresight& ahead) {
   const Seen& own = bodies_.sight(slot);
-  const auto list = neighbours_.of(slot);
-  double smallest_held = own.size * (1.0 / kHolderRatioMax);
-  bool is_alone = false;  // in how it moves
-  if constexpr (!Laws::kPlain) is_alone = !is_like(own);
-  if (is_alone) {
-    smallest_held = std::numeric_limits<double>::infinity();
-    ahead.has_others = true;
-  } else {
-    look_at_all(slot, list, smallest_held, clock, ahead);
+  if constexpr (!Laws::kPlain) {
+    if (!is_like(own)) {
+      ahead.has_unseen = true;
+      for (const Slot other : list) look_at_unlike(slot, other, changed, clock, renewal, ahead);
+      return;
+    }
   }
-  if (ahead.has_others) look_at_others(slot, list, smallest_held, changed, clock, renewal, ahead);
+  const double smallest_held = own.size * (1.0 / kHolderRatioMax);
+  look_at_all(slot, list, smallest_held, clock, ahead);
+  if (ahead.passed_over > 0) look_at_others(slot, changed, clock, renewal, ahead);
 }
 
 // Of those that were passed over: whoever is not like the rest, and the much smaller, which hold
-// their pairs. `smallest`: infinite for a disk that is not like the rest itself.
+// their pairs.
 template <class S, class Laws>
-[[gnu::noinline]] void BasicWorld<S, Laws>::look_at_others(Slot slot,
-                                                           std::span<const Slot> list,
-                                                           double smallest,
-                                                           bool changed,
-                                                           const SightClock& clock,
-                                                           double renewal,
-                                                           Foresight& ahead) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const bool is_alone = smallest == kNever;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Seen& theirs = bodies_.sight(list[i]);
-    if (!is_passed_over(theirs, smallest)) continue;
-    if (is_alone || !is_like(theirs)) {
-      look_at_unlike(slot, list[i], changed, clock, renewal, ahead);
+[[gnu::noinline]] void BasicWorld<S, Laws>::look_at_others(
+    Slot slot, bool changed, const SightClock& clock, double renewal, Foresight& ahead) {
+  const std::span<const PassedOver> others(sights_.others.data(),
+                                           static_cast<std::size_t>(ahead.passed_over));
+  for (const PassedOver& other : others) queue_.prefetch_line(other.slot);
+  for (const PassedOver& other : others) {
+    if (other.soonest < 0) {
+      look_at_unlike(slot, other.slot, changed, clock, renewal, ahead);
     } else if (changed) {
-      const double soonest = seconds_of(sights_.bounds[i], clock);
-      if (soonest < kNever) offer(list[i], slot, soonest);
+      offer(other.slot, slot, seconds_of(other.soonest, clock));
     }
   }
 }
@@ -156,12 +154,10 @@ template <class S, class Laws>
 void BasicWorld<S, Laws>::prefetch_sights(Slot slot) const {
   const auto all = neighbours_.of(slot);
   for (const Slot other : all) bodies_.prefetch_sight(other);
-  constexpr std::size_t kMany = 24;  // of which most are much smaller, and are told of a change
-  if (all.size() < kMany) return;
-  for (const Slot other : all) queue_.prefetch_line(other);
 }
 
-// A neighbour that is a wall, a zone, fixed or at rest; whoever is one that rests or is fixed.
+// A neighbour that is a wall, a zone, fixed or at rest; whoever is one that rests or is fixed. The
+// kernel is asked at once for what no sight shows, and for a wall that is touched or all but.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
                                          Slot other,
@@ -169,13 +165,15 @@ void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
                                          const SightClock& clock,
                                          double renewal,
                                          Foresight& ahead) {
-  const auto soonest = [&] { return seconds_of(soonest_seen(slot, other, clock), clock); };
   const bool is_held = holds_prediction(slot, other);
   if (!is_held && !changed) return;
   if (see_each_other(slot, other)) {
-    return is_held ? ahead.note(other, soonest()) : offer(other, slot, soonest());
+    const double soonest = seconds_of(soonest_seen(slot, other, clock), clock);
+    if (!is_held) return offer(other, slot, soonest);
+    if (!(soonest < kNear) || !at(other).is_wall()) return ahead.note(other, soonest);
   }
   if (!is_held) return offer(other, slot, 0);
+  ahead.has_unseen = true;
   // Rather more than the bound of a guess: the guess may come later, but hardly so much.
   constexpr double kBeyond = 1.25;
   double horizon = std::min(renewal, kBeyond * ahead.first);
@@ -190,14 +188,15 @@ void BasicWorld<S, Laws>::look_at_unlike(Slot slot,
   }
 }
 
-/// Two disks whose sights say when they meet: where motions are curved or go around a period, two
-/// that are like the rest.
+/// Two whose sights say when they meet: where motions are curved or go around a period, disks that
+/// are like the rest; where disks grow, any; else walls, too.
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::see_each_other(Slot a, Slot b) const {
   if (Laws::kCurved || is_periodic()) {
     return is_like(bodies_.sight(a)) && is_like(bodies_.sight(b));
   }
-  return at(a).is_disk() && at(b).is_disk();
+  constexpr BodyType kLast = Laws::kGrows ? BodyType::Static : BodyType::Wall;
+  return at(a).type <= kLast && at(b).type <= kLast;
 }
 
 template <class S, class Laws>
@@ -205,7 +204,7 @@ SoonestTwo BasicWorld<S, Laws>::soonest_of(Slot slot,
                                            std::span<const Slot> list,
                                            double smallest,
                                            const SightClock& clock) const {
-  if (sights_.bounds.size() < list.size() + 4) sights_.bounds.resize(2 * list.size() + 4);
+  if (sights_.others.size() < list.size()) sights_.others.resize(2 * list.size());
   const auto soonest = [&](const auto& common) {
     return soonest_contacts(slot,
                             list,
@@ -214,7 +213,7 @@ SoonestTwo BasicWorld<S, Laws>::soonest_of(Slot slot,
                             clock.now,
                             kScreenSlack<S>,
                             common,
-                            sights_.bounds.data());
+                            sights_.others.data());
   };
   if constexpr (!Laws::kPlain) {
     if (is_periodic()) {
@@ -227,6 +226,10 @@ SoonestTwo BasicWorld<S, Laws>::soonest_of(Slot slot,
 /// By the clock of sights from now on. REQUIRES: they see each other.
 template <class S, class Laws>
 double BasicWorld<S, Laws>::soonest_seen(Slot a, Slot b, const SightClock& clock) const {
+  if constexpr (!Laws::kCurved && !Laws::kGrows) {
+    if (at(b).is_wall()) return soonest_at_wall(a, b, clock);
+    if (at(a).is_wall()) return soonest_at_wall(b, a, clock);
+  }
   const auto soonest = [&](const auto& common) {
     return soonest_contact(bodies_.sight(a), bodies_.sight(b), clock.now, kScreenSlack<S>, common);
   };
@@ -236,6 +239,17 @@ double BasicWorld<S, Laws>::soonest_seen(Slot a, Slot b, const SightClock& clock
     }
   }
   return soonest(common_to_sights(clock));
+}
+
+template <class S, class Laws>
+double BasicWorld<S, Laws>::soonest_at_wall(Slot disk, Slot wall, const SightClock& clock) const {
+  const DoubleWord2<S>& edge = shape(wall).edge;
+  const WallView view(present_of(bodies_.sight(disk), clock.now),
+                      present_of(bodies_.sight(wall), clock.now),
+                      static_cast<double>(edge.x.hi),
+                      static_cast<double>(edge.y.hi),
+                      kScreenSlack<S>);
+  return view.soonest_contact();
 }
 
 /// An event with the partner of what lies ahead, and nothing else. A guess that stood before may be
@@ -284,7 +298,7 @@ void BasicWorld<S, Laws>::schedule(Slot slot, const Foresight& ahead, double ren
     set_guess(slot, guess_of(ahead), ahead.first, std::min(ahead.second, limit));
   } else if (limit == renewal) {
     Event<S> next;
-    if (!ahead.exact && !ahead.has_others) next = guess_after(renewal, ahead);
+    if (!ahead.exact && !ahead.has_unseen) next = guess_after(renewal, ahead);
     next.at = roughly_later(now_, renewal);
     queue_.set(slot, next, id_lookup());
   } else {
@@ -389,8 +403,8 @@ void BasicWorld<S, Laws>::join(Slot holder, Slot changed, float later) {
   if (theirs.kind == EventKind::NeighbourRenewal) {
     const bool is_anything_known = theirs.until_guess >= 0;
     if (!is_anything_known || !(later < theirs.until_guess + theirs.clear_for)) return;
-    if (!is_like(bodies_.sight(changed))) {
-      theirs.until_guess = -1;  // of walls and the like nothing is known by sight
+    if (!see_each_other(holder, changed)) {
+      theirs.until_guess = -1;  // nothing is known by sight
     } else if (theirs.partner == changed) {
       const double others =
           static_cast<double>(theirs.until_guess) + static_cast<double>(theirs.clear_for);

@@ -73,7 +73,7 @@ class Bodies : public BesideSights<Body<S, Laws>, Sight> {
 /// What a body is beside its sight.
 struct alignas(64) ExactPart {
   Id id = kNoId;    ///< kNoId: the slot is free
-  double mass = 0;  ///< kg; of a wall instead: the index of its shape
+  double mass = 0;  ///< kg, of a disk
   Instant since;
   double x_low = 0;  ///< m
   double y_low = 0;
@@ -89,6 +89,8 @@ class PlainBody {
   using Ref = std::conditional_t<kConst, const T&, T&>;
   Ref<PlainSight> sight_;
   Ref<ExactPart> exact_;
+  /// A wall has no size, and a sight a place for one: whoever looks at it looks at its shape, too.
+  static constexpr double kFirstWall = -1;
 
  public:
   PlainBody(Ref<PlainSight> sight, Ref<ExactPart> exact)
@@ -108,7 +110,7 @@ class PlainBody {
   }
   double radius() const { return is_wall() ? 0 : std::abs(sight_.size); }
   double mass() const { return exact_.mass; }
-  std::int32_t wall() const { return static_cast<std::int32_t>(exact_.mass); }
+  std::int32_t wall() const { return static_cast<std::int32_t>(kFirstWall - sight_.size); }
 
   void set_since(const Instant& instant) { exact_.since = instant; }
   void set_position(const DoubleWord2<double>& position) {
@@ -125,7 +127,7 @@ class PlainBody {
   }
   void set_radius(double radius) { sight_.size = is_dynamic() ? radius : -radius; }
   void set_mass(double mass) { exact_.mass = mass; }
-  void set_wall(std::int32_t shape) { exact_.mass = shape; }
+  void set_wall(std::int32_t shape) { sight_.size = kFirstWall - shape; }
 
   bool is_wall() const { return type == BodyType::Wall; }
   bool is_disk() const { return type <= BodyType::Static; }

@@ -144,11 +144,13 @@ inline bool disks_may_meet(
   const double speed = std::abs(vx) + std::abs(vy);
   const double approach = -(px * vx + py * vy) + off * speed;
   if (approach < 0) return false;
-  const double v2 = vx * vx + vy * vy;
   const double near_reach = reach + off;
   const double moment = std::abs(px * vy - py * vx) - off * speed;
-  const double disc =
-      v2 * near_reach * near_reach * (1 + slack) - (moment > 0 ? moment * moment : 0.0);
+  const double sweep = (vx * vx + vy * vy) * near_reach * near_reach;
+  constexpr double kLeast = 1e-280, kMost = 1e280;  // beyond, D loses digits or says nothing
+  if (speed > 0 && !(sweep > kLeast && sweep < kMost)) [[unlikely]]
+    return true;
+  const double disc = sweep * (1 + slack) - (moment > 0 ? moment * moment : 0.0);
   if (disc < 0) return false;
   const double gap2 = px * px + py * py - near_reach * near_reach;
   const double slack2 = off * (std::abs(px) + std::abs(py) + near_reach);

@@ -2,6 +2,7 @@
 #include "sight.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <type_traits>
 
@@ -60,6 +61,18 @@ template <class AnySight>
   return {{x, y, vx, vy, since, radius, off}, size};
 }
 
+/// Writes those of four that count; returns where it has stopped.
+PassedOver* noted(const Slot* four,
+                  const FourWords& counts,
+                  const Four& soonest,
+                  PassedOver* others) {
+  for (unsigned left = lanes::below_zero(counts); left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    *others++ = {four[lane], soonest[lane]};
+  }
+  return others;
+}
+
 }  // namespace
 
 template <class AnySight, class Common>
@@ -70,11 +83,11 @@ SoonestTwo soonest_contacts(Slot slot,
                             double now,
                             double slack,
                             const Common& common,
-                            double* each) {
+                            PassedOver* others) {
   const Present own = present_of(sights[static_cast<std::size_t>(slot)], now);
   const Four never = Four{} + std::numeric_limits<double>::infinity();
   SoonestByLane found;
-  FourWords has_others{};
+  PassedOver* const first_other = others;
   const AnySight* const see = sights.data();
   for (std::size_t i = 0; i < list.size(); i += 4) {
     // Beyond its end a list has room for four, with slots that it held once.
@@ -82,15 +95,18 @@ SoonestTwo soonest_contacts(Slot slot,
     const auto count = static_cast<std::int64_t>(list.size() - i);
     const Columns there = gathered(see[four[0]], see[four[1]], see[four[2]], see[four[3]]);
     const Four soonest = soonest_contact<Four>(own, there.of, now, slack, common);
-    std::memcpy(each + i, &soonest, sizeof soonest);
     const FourWords is_other = ~(there.size >= size_min);
     const FourWords is_beyond = FourWords{0, 1, 2, 3} >= count;
-    has_others |= is_other & ~is_beyond;
+    if (lanes::below_zero(is_other & ~is_beyond) != 0) [[unlikely]] {
+      const FourWords is_unlike = there.size < 0;
+      const FourWords counts = is_other & ~is_beyond & (is_unlike | (soonest < never));
+      others = noted(four, counts, is_unlike ? Four{} - 1 : soonest, others);
+    }
     found.note(FourWords{four[0], four[1], four[2], four[3]},
                (is_other | is_beyond) ? never : soonest);
   }
   SoonestTwo all = found.over_all();
-  all.has_others = (has_others[0] | has_others[1] | has_others[2] | has_others[3]) != 0;
+  all.passed_over = static_cast<int>(others - first_other);
   return all;
 }
 
@@ -102,7 +118,7 @@ using SoonestContacts = SoonestTwo(Slot,
                                    double,
                                    double,
                                    const Common&,
-                                   double*);
+                                   PassedOver*);
 template SoonestContacts<PlainSight, Steady> soonest_contacts<PlainSight, Steady>;
 template SoonestContacts<Sight, Steady> soonest_contacts<Sight, Steady>;
 template SoonestContacts<Sight, Growing> soonest_contacts<Sight, Growing>;

@@ -139,15 +139,31 @@ struct Epoch {
 /// Rounding of a coordinate in double: a few units in the last place.
 inline constexpr double kSightRounding = 1e-15;
 
+/// Makes a sight with lengths or speeds for which terms of (2) would leave the range of double one
+/// of a body that may be anywhere: then the kernel is asked.
+template <class AnySight>
+void keep_in_range(AnySight& sight) {
+  constexpr double kMost = 1e70;  // m, m/s; its fourth power is in range
+  // m. Who needs less than 2^61 s for more than the slack of such a reach has a speed that squared
+  // and multiplied with its square is in range.
+  constexpr double kLeast = 1e-60;
+  const double reach = sight.reach();
+  const bool is_in_range =
+      sight.off < kSightRounding * kMost && reach < kMost && (reach > kLeast || reach == 0);
+  if (!is_in_range) [[unlikely]]
+    sight.off = std::numeric_limits<double>::infinity();
+}
+
 /// Makes a sight that shows where and how fast a body is count from the epoch's beginning, until
 /// `length` seconds after it. `since`: when the body was there.
-template <class S>
-void date(Look& sight, const Time<S>& since, const Epoch<S>& epoch) {
+template <class AnySight, class S>
+void date(AnySight& sight, const Time<S>& since, const Epoch<S>& epoch) {
   sight.since = rough_seconds(since, epoch.begin);
   const double speed = std::abs(sight.vx) + std::abs(sight.vy);
   const double way = speed * (std::abs(sight.since) + epoch.length);
   sight.off = kSightRounding * (std::abs(sight.x) + std::abs(sight.y)) + kFlightSlack<S> * way +
               kClock * speed;
+  keep_in_range(sight);
 }
 
 /// The sight of a body with this motion.
@@ -177,6 +193,7 @@ Sight growing_sight_of(const Motion<S>& motion,
   const double since_growth = growth * (std::abs(sight.since) + epoch.length);
   sight.radius = static_cast<double>(grown.hi) + static_cast<double>(grown.lo);
   sight.off += kSightRounding * sight.radius + kFlightSlack<S> * since_growth + kClock * growth;
+  keep_in_range(sight);
   sight.radius -= growth * sight.since;
   return sight;
 }
@@ -288,8 +305,8 @@ double soonest_contact(
 struct SoonestTwo {
   double first = std::numeric_limits<double>::infinity();
   double second = std::numeric_limits<double>::infinity();
-  Slot partner = -1;        ///< of the first
-  bool has_others = false;  ///< there are some that were not looked at
+  Slot partner = -1;    ///< of the first
+  int passed_over = 0;  ///< so many others there are that may meet it, too
 
   void note(Slot other, double soonest) {
     if (soonest < first) {
@@ -305,14 +322,17 @@ struct SoonestTwo {
 /// Does the body move like most, so that four of them can be looked at together?
 inline bool is_like(const Look& sight) { return sight.size >= 0; }
 
-/// Is this one for the bodies that soonest_contacts() passes over?
-inline bool is_passed_over(const Look& sight, double size_min) { return !(sight.size >= size_min); }
+/// One that soonest_contacts() passes over.
+struct PassedOver {
+  Slot slot = -1;
+  double soonest = -1;  ///< s from now; < 0: not known, it is not like the rest
+};
 
 /// Of the disks in a list that are like the rest and have at least this size, the soonest two
 /// contacts with the body of this slot, by soonest_contact(). REQUIRES: size_min >= 0; `list` is in
 /// memory up to the next multiple of four, and what stands there are slots of `sights`, whichever.
-/// `each` gets the soonest contact with each of the list, of those that are like the rest; as much
-/// memory is there.
+/// `others` gets those that it passes over, in the list's order, but for the smaller that it never
+/// meets; memory for the whole list is there.
 template <class AnySight, class Common>
 SoonestTwo soonest_contacts(Slot slot,
                             std::span<const Slot> list,
@@ -321,6 +341,6 @@ SoonestTwo soonest_contacts(Slot slot,
                             double now,
                             double slack,
                             const Common& common,
-                            double* each);
+                            PassedOver* others);
 
 }  // namespace stoss::engine

@@ -102,6 +102,7 @@ Sight falling_sight_of(const Motion<S>& motion,
   const double fastest = (speed + 2 * strength * begun.gained) / begun.left;
   sight.off = kSlack * (place + before.way + fastest * ended.run + strength * ended.fallen) +
               kClock * (fastest + strength * ended.gained);
+  keep_in_range(sight);
   sight.x -= pull.x * begun.fallen;
   sight.y -= pull.y * begun.fallen;
   sight.vx = (sight.vx - pull.x * begun.gained) / begun.left;

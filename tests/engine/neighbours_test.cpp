@@ -75,7 +75,7 @@ void expect_everybody_known(bool in_cells) {
       const bool is_known = known != slots.end();
       if (!is_known) slots.push_back(slot);
       const Margin margin{random.uniform(0, 2), 1e-6, in_cells};
-      const auto interacts = [slot](Slot other) { return interact(slot, other); };
+      const auto interacts = [slot](Slot other, const Aabb&) { return interact(slot, other); };
       if (!is_known || !neighbours.cross(slot, body.here.x, body.here.y, interacts)) {
         neighbours.renew(slot, role_of(slot), body.tight, body.here, margin, interacts);
       }
@@ -101,7 +101,7 @@ TEST(Neighbours, NewcomersAreThoseThatWereNotKnown) {
   Random random(test::seed_of_run());
   Neighbours neighbours;
   const auto interacts_with = [](Slot slot) {
-    return [slot](Slot other) { return other != slot; };
+    return [slot](Slot other, const Aabb&) { return other != slot; };
   };
   const auto renew = [&](Slot slot, double x, double y) {
     Glance here;

@@ -115,26 +115,30 @@ void expect_four_at_a_time_as_one_by_one(const Common& common) {
     std::vector<Slot> room(32);  // beyond the list, too, are slots
     for (Slot& other : room) other = static_cast<Slot>(random.below(sights.size()));
     const std::span<const Slot> list(room.data(), random.below(30));
-    std::vector<double> each(room.size());
+    std::vector<PassedOver> others(room.size());
     const auto found = soonest_contacts(
-        slot, list, sights, kSizeMin, kNow, kScreenSlack<double>, common, each.data());
+        slot, list, sights, kSizeMin, kNow, kScreenSlack<double>, common, others.data());
     SoonestTwo expected;
+    std::vector<PassedOver> passed_over;
     for (std::size_t j = 0; j < list.size(); ++j) {
       const AnySight& sight = sights[static_cast<std::size_t>(list[j])];
       const double soonest = soonest_contact(
           sights[static_cast<std::size_t>(slot)], sight, kNow, kScreenSlack<double>, common);
-      if (is_like(sight)) {
-        ASSERT_EQ(each[j], soonest);
-      }
-      if (is_passed_over(sight, kSizeMin)) {
-        expected.has_others = true;
-      } else {
+      if (sight.size >= kSizeMin) {
         expected.note(list[j], soonest);
+      } else if (!is_like(sight)) {
+        passed_over.push_back({list[j], -1});
+      } else if (soonest < kNever) {
+        passed_over.push_back({list[j], soonest});
       }
     }
     ASSERT_EQ(found.first, expected.first);
     ASSERT_EQ(found.second, expected.second);
-    ASSERT_EQ(found.has_others, expected.has_others);
+    ASSERT_EQ(static_cast<std::size_t>(found.passed_over), passed_over.size());
+    for (std::size_t j = 0; j < passed_over.size(); ++j) {
+      ASSERT_EQ(others[j].slot, passed_over[j].slot);
+      ASSERT_EQ(others[j].soonest, passed_over[j].soonest);
+    }
     if (expected.first < expected.second) {
       ASSERT_EQ(found.partner, expected.partner);
     }

@@ -231,9 +231,13 @@ class CellStore {
   /// More than the cells that a search of all blocks looks at.
   double cells_max() const { return static_cast<double>(kBlockCells * table_.size()); }
 
-  /// A cell's bit among those of its block.
-  static std::uint64_t bit_of(std::int64_t x, std::int64_t y) {
-    return std::uint64_t{1} << in_block(x, y);
+  /// A cell's bit among those of its block. REQUIRES: in a cell.
+  std::uint64_t bit_of_cell_of(std::int32_t item) const {
+    return std::uint64_t{1} << (index(links_[index(item)].cell) % kBlockCells);
+  }
+  /// The cell of a bit, by its number, in the block with these numbers along the axes.
+  static Cell cell_of_bit(const Cell& block, int bit) {
+    return {block.x * kBlockSide + bit % kSide, block.y * kBlockSide + bit / kSide, block.level};
   }
   /// The bits of those of a range that lie in a block, by its numbers along the axes.
   static std::uint64_t bits_within(const Range& cells, std::int64_t block_x, std::int64_t block_y) {

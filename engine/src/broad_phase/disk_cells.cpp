@@ -33,15 +33,6 @@ std::optional<DiskCells::Step> DiskCells::move(std::int32_t disk, double x, doub
   return step;
 }
 
-Aabb DiskCells::box_of(std::int32_t disk) const {
-  const Cell cell = store_.cell_of(disk);
-  const Level& level = level_of(cell.level);
-  const Cage cage = cage_in(level, cell);
-  const double half =
-      Extent::padded(cage.half + level.radius_max, std::max(std::abs(cage.x), std::abs(cage.y)));
-  return {cage.x - half, cage.y - half, cage.x + half, cage.y + half};
-}
-
 void DiskCells::leave(std::int32_t disk) {
   const std::int32_t id = store_.cell_of(disk).level;
   store_.remove(disk);

@@ -27,6 +27,7 @@
 #include "broad_phase/place.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -69,62 +70,38 @@ class DiskCells {
     return cage_in(level_of(cell.level), cell);
   }
   /// The disk is in it, while it is in its cage. REQUIRES: contained.
-  Aabb box_of(std::int32_t disk) const;
-  /// Is nothing to be found by bystanders() or on other levels? REQUIRES: contained.
-  bool is_by_itself(std::int32_t disk) const {
-    const CellStore::Note& note = store_.note_of_block_of(disk);
-    return note.as_of == changes_ && lists_.size(note.list) == 0 && !has_other_levels();
+  Aabb box_of(std::int32_t disk) const {
+    const Cell cell = store_.cell_of(disk);
+    return box_in(level_of(cell.level), cell);
   }
-  /// Calls visit(body) for what may be near the disk without standing in a cell: of all that
-  /// `search(box, found)` adds to `found` for a box around the disk's block of cells, those whose
-  /// `box_of(body)` comes to the disk's cage. False, and nothing is done, where the block has many.
+  /// Calls visit(body) for what may meet the disk without standing in a cell: of all that
+  /// `others.find(box, found)` adds to `found` for a box around the disk's block of cells, those
+  /// whose `others.box_of(body)` comes to the disk's cage, and for whom `others.may_come_to(body,
+  /// box)` is true of a box around that. False, and nothing is done, where the block has many.
   /// REQUIRES: contained.
-  template <class Search, class BoxOf, class Visit>
-  bool for_each_bystander(std::int32_t disk,
-                          const Search& search,
-                          const BoxOf& box_of,
-                          const Visit& visit) {
+  template <class Others, class Visit>
+  bool for_each_bystander(std::int32_t disk, const Others& others, const Visit& visit) {
     const auto [key, note] = store_.noted_block_of(disk);
-    if (note->as_of != changes_) {
-      const Level& level = level_of(key.level);
-      asked_.clear();
-      search(box_of_block(level, key), asked_);
-      noted_.clear();
-      for (std::size_t i = 0; i < std::min(asked_.size(), kManyBystanders); ++i) {
-        const CellStore::Range cells = cells_beside(level, box_of(asked_[i]), kCellRounding);
-        note_down(asked_[i], CellStore::bits_within(cells, key.x, key.y));
-      }
-      lists_.assign(note->list, noted_);
-      note->as_of = changes_;
-    }
+    if (note->as_of != changes_) note_bystanders(key, *note, others);
     const auto noted = lists_.items(note->list);
     if (noted.size() == kManyBystanders * kWordsNoted) return false;
-    const Cell own = store_.cell_of(disk);
-    const std::uint64_t here = CellStore::bit_of(own.x, own.y);
+    const std::uint64_t here = store_.bit_of_cell_of(disk);
     for (std::size_t i = 0; i < noted.size(); i += kWordsNoted) {
       if ((cells_noted(&noted[i]) & here) != 0) visit(noted[i]);
     }
     return true;
   }
-  /// Are all that for_each_bystander() would find `known`, which was so before the disk's last step
-  /// too, and is nothing else to be found? No, where that is not told at once. REQUIRES: contained.
-  bool keeps_bystanders(std::int32_t disk,
-                        const Step& step,
-                        std::span<const std::int32_t> known) const {
+  /// Are `known` all that for_each_bystander() would find, and is nothing else to be found? No,
+  /// where that is not told at once. REQUIRES: contained.
+  bool has_bystanders(std::int32_t disk, std::span<const std::int32_t> known) const {
     const CellStore::Note& note = store_.note_of_block_of(disk);
     if (note.as_of != changes_ || has_other_levels()) return false;
-    const Cell to = store_.cell_of(disk);
-    const std::int64_t x = (to.x & kLastInBlock) - step.dx, y = (to.y & kLastInBlock) - step.dy;
-    if (((x | y) & ~kLastInBlock) != 0) return false;
-    const std::uint64_t both = CellStore::bit_of(to.x, to.y) | CellStore::bit_of(x, y);
+    const std::uint64_t here = store_.bit_of_cell_of(disk);
     const auto noted = lists_.items(note.list);
     std::size_t found = 0;
     for (std::size_t i = 0; i < noted.size(); i += kWordsNoted) {
-      const std::uint64_t near = cells_noted(&noted[i]) & both;
-      if (near == 0) continue;
-      if (near != both || std::find(known.begin(), known.end(), noted[i]) == known.end()) {
-        return false;
-      }
+      if ((cells_noted(&noted[i]) & here) == 0) continue;
+      if (std::find(known.begin(), known.end(), noted[i]) == known.end()) return false;
       ++found;
     }
     return found == known.size() && noted.size() != kManyBystanders * kWordsNoted;
@@ -209,10 +186,30 @@ class DiskCells {
     store_.for_each(cells_in(near), level.id, visit);
   }
 
-  // Of a body beside a block it is noted near which of its cells it may be, one bit each.
+  // Notes who may come to which cells of a block.
+  template <class Others>
+  void note_bystanders(const Cell& key, CellStore::Note& note, const Others& others) {
+    const Level& level = level_of(key.level);
+    asked_.clear();
+    others.find(box_of_block(level, key), asked_);
+    noted_.clear();
+    for (const std::int32_t body : asked_) {
+      if (noted_.size() == kManyBystanders * kWordsNoted) break;
+      const CellStore::Range range = cells_beside(level, others.box_of(body), kCellRounding);
+      std::uint64_t cells = CellStore::bits_within(range, key.x, key.y);
+      for (std::uint64_t left = cells; left != 0; left &= left - 1) {
+        const Aabb box = box_in(level, CellStore::cell_of_bit(key, std::countr_zero(left)));
+        if (!others.may_come_to(body, box)) cells &= ~(left & -left);
+      }
+      if (cells != 0) note_down(body, cells);
+    }
+    lists_.assign(note.list, noted_);
+    note.as_of = changes_;
+  }
+
+  // Of a body beside a block it is noted to which of its cells it may come, one bit each.
   static constexpr std::size_t kManyBystanders = 32;
   static constexpr std::size_t kWordsNoted = 3;
-  static constexpr std::int64_t kLastInBlock = CellStore::kBlockSide - 1;
   static_assert(CellStore::kBlockCells == 64);
 
   static std::uint64_t cells_noted(const std::int32_t* noted) {
@@ -264,6 +261,13 @@ class DiskCells {
     return {(static_cast<double>(cell.x) + 0.5) * level.side,
             (static_cast<double>(cell.y) + 0.5) * level.side,
             level.cage_half};
+  }
+  /// Around a cage with its disk.
+  static Aabb box_in(const Level& level, const Cell& cell) {
+    const Cage cage = cage_in(level, cell);
+    const double half =
+        Extent::padded(cage.half + level.radius_max, std::max(std::abs(cage.x), std::abs(cage.y)));
+    return {cage.x - half, cage.y - half, cage.x + half, cage.y + half};
   }
   Level& level_of(std::int32_t id) {
     std::size_t i = 0;

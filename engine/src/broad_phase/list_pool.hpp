@@ -7,6 +7,8 @@
 //
 // Invariant: the word of the list that has no room stands first, and says so for ever.
 
+#include "prefetch.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +29,8 @@ class ListPool {
     const std::int32_t* const head = memory_.data() + list.head;
     return {head + 1, Word(*head).size()};
   }
+  /// Asks for them.
+  void prefetch_items(PooledList list) const { prefetch(memory_.data() + list.head); }
   std::uint32_t size(PooledList list) const { return Word(memory_[list.head]).size(); }
 
   void push(PooledList& list, std::int32_t item) {

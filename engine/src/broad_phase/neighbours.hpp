@@ -128,11 +128,8 @@ class Neighbours {
   }
   /// Asks for the list itself; its place should have come.
   void prefetch_list(Slot slot) const {
-    if (cells_.contains_known(slot)) {
-      cells_.prefetch_around(slot);
-    } else {
-      prefetch(list_of(slot).data());
-    }
+    if (cells_.contains_known(slot)) cells_.prefetch_around(slot);
+    pool_.prefetch_items(standing_[index(slot)].list);
   }
   /// And for what newcomers() will read, of a disk that is about to cross.
   void prefetch_beyond(Slot slot) const {
@@ -173,8 +170,7 @@ class Neighbours {
     found_.clear();
     before_.clear();
     const auto list = list_of(slot);
-    if (list.empty() && cells_.is_by_itself(slot)) return true;
-    if (cells_.keeps_bystanders(slot, *step, list) && all_keep_lists(list)) return true;
+    if (cells_.has_bystanders(slot, list)) return true;
     before_.assign(list.begin(), list.end());
     find_from_cell(slot, interacts);
     if (!found_.empty() || !before_.empty()) replace_neighbours(slot);
@@ -182,7 +178,8 @@ class Neighbours {
   }
 
   /// Makes the box of a body afresh: `tight` is its extent and `here` its place now.
-  /// `interacts(slot)` says whether the body can meet another whose box overlaps.
+  /// `interacts(other, box)` says whether the body, somewhere in the box, can meet another whose
+  /// box overlaps that.
   /// `copies(box, visit)` calls visit for the box and for its images in a periodic world.
   template <class Interacts, class Copies = NoCopies>
   void renew(Slot slot,
@@ -281,10 +278,6 @@ class Neighbours {
 
   static std::size_t index(Slot slot) { return static_cast<std::size_t>(slot); }
   bool keeps_list(Slot slot) const { return standing_[index(slot)].role == Role::DynamicDisk; }
-  // Of others than these it may depend on the cell whether the disk has them as neighbours.
-  bool all_keep_lists(std::span<const Slot> slots) const {
-    return std::all_of(slots.begin(), slots.end(), [this](Slot slot) { return keeps_list(slot); });
-  }
   static void keep_each_once(std::vector<Slot>& slots) {
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
@@ -341,21 +334,29 @@ class Neighbours {
     return place.leaf != kNone ? tree_.box_of(place.leaf) : place.box();
   }
 
+  /// Bodies that stand in no cell, to the cells.
+  template <class Interacts>
+  struct InNoCell {
+    const Neighbours& all;
+    const Interacts& interacts;
+    void find(const Aabb& area, std::vector<Slot>& found) const {
+      for (const Slot other : all.grid_.find(area)) found.push_back(other);
+      all.tree_.query(area, [&](Slot other) { found.push_back(other); });
+    }
+    Aabb box_of(Slot body) const { return all.box_of_place(all.place(body)); }
+    /// A wall's box may be wide where the wall is not; that of a disk says all.
+    bool may_come_to(Slot body, const Aabb& box) const {
+      return all.standing_[index(body)].role != Role::Wall || interacts(body, box);
+    }
+  };
+
   // Whom a disk in a cell has as neighbours, but for those whom it knows from the cells: found_.
   template <class Interacts>
   void find_from_cell(Slot slot, const Interacts& interacts) {
     found_.clear();
-    const auto search = [this](const Aabb& area, std::vector<Slot>& found) {
-      for (const Slot other : grid_.find(area)) found.push_back(other);
-      tree_.query(area, [&](Slot other) { found.push_back(other); });
-    };
-    const bool is_told = cells_.for_each_bystander(
-        slot,
-        search,
-        [this](Slot other) { return box_of_place(place(other)); },
-        [&](Slot other) {
-          if (keeps_list(other) || interacts(other)) found_.push_back(other);
-        });
+    const bool is_told = cells_.for_each_bystander(slot,
+                                                   InNoCell<Interacts>{*this, interacts},
+                                                   [this](Slot other) { found_.push_back(other); });
     if (!is_told) return find(slot, cells_.box_of(slot), interacts, NoCopies{});
     if (!cells_.has_other_levels()) return;
     cells_.find(cells_.box_of(slot), cells_.cell_of(slot).level, [this](Slot other) {
@@ -372,13 +373,13 @@ class Neighbours {
     found_.clear();
     const auto consider = [&](Slot other) {
       const bool both_dynamic = is_dynamic && keeps_list(other);
-      if (both_dynamic ? other != slot : interacts(other)) found_.push_back(other);
+      if (both_dynamic ? other != slot : interacts(other, box)) found_.push_back(other);
     };
     copies(box, [&](const Aabb& copy) {
       for (const Slot other : grid_.find(copy)) consider(other);
       cells_.find(copy, own_cell ? own_cell->level : DiskCells::kNoLevel, consider);
       tree_.query(copy, [&](Slot other) {
-        if (interacts(other)) found_.push_back(other);
+        if (interacts(other, box)) found_.push_back(other);
       });
     });
     if constexpr (!std::is_same_v<Copies, NoCopies>) keep_each_once(found_);

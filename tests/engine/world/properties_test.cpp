@@ -65,6 +65,7 @@ TEST(Properties, NeighboursAndAllPairsGiveTheSameBytesInOtherArithmetics) {
   for_each_story([](const Story& story, StoryTeller&) {
     for (const Arithmetic arithmetic : {Arithmetic::Float, Arithmetic::LongDouble}) {
       const Result base = test::play(story, {.arithmetic = arithmetic});
+      if (base.endless) continue;  // in this arithmetic: it stops where events are too many
       expect_same(
           base,
           test::play(story, {.arithmetic = arithmetic, .broad_phase = BroadPhaseKind::AllPairs}));
@@ -107,8 +108,10 @@ TEST(Properties, SnapshotsRunOnLikeTheOriginalInOtherArithmetics) {
   for_each_story([](const Story& story, StoryTeller& teller) {
     const auto ticks = teller.odd_ticks(story);
     for (const Arithmetic arithmetic : {Arithmetic::Float, Arithmetic::LongDouble}) {
+      const Result base = test::play(story, {.arithmetic = arithmetic});
+      if (base.endless) continue;
       expect_same(
-          test::play(story, {.arithmetic = arithmetic}),
+          base,
           test::play(story,
                      {.arithmetic = arithmetic, .ticks = ticks, .at_ticks = Break::Snapshot}));
     }

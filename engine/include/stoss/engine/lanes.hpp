@@ -45,6 +45,17 @@ namespace lanes {
 #endif
 }
 
+/// Which are below zero: a bit for each, the lowest for the first.
+[[gnu::always_inline]] inline unsigned below_zero(const FourWords& x) {
+#if defined(__AVX__)
+  return static_cast<unsigned>(__builtin_ia32_movmskpd256(reinterpret_cast<Four>(x)));
+#else
+  unsigned bits = 0;
+  for (int lane = 0; lane < 4; ++lane) bits |= (x[lane] < 0 ? 1U : 0U) << lane;
+  return bits;
+#endif
+}
+
 /// Rows to columns: `a` gets the first of each, `b` the second and so on.
 [[gnu::always_inline]] inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   const Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
