@@ -255,6 +255,7 @@ class BasicWorld final : public WorldCore {
   void schedule(Slot slot, const Foresight& ahead, double renewal);
   double time_to_renewal(Slot slot, const Seen& own, const SightClock& clock) const;
   double time_to_renewal_far_out(Slot slot) const;
+  Vector2 rough_place_of(Slot slot) const;
   void offer(Slot holder, Slot changed, double soonest);
   bool guess_again(Slot holder, Slot changed, double soonest);
   void join(Slot holder, Slot changed, float later);

@@ -460,11 +460,11 @@ void BasicWorld<S, Laws>::renew_box(Slot slot, double margin) {
 template <class S, class Laws>
 bool BasicWorld<S, Laws>::cross(Slot slot) {
   if (Laws::kGrows || is_periodic() || all_pairs() || !at(slot).is_dynamic()) return false;
-  const Glance here = glance_of(slot);
+  const Vector2 here = rough_place_of(slot);
   const auto interacts = [&](Slot other, const Aabb& box) {
     return may_become_close(slot, box, other);
   };
-  return neighbours_.cross(slot, here.x + here.x_low, here.y + here.y_low, interacts);
+  return neighbours_.cross(slot, here.x(), here.y(), interacts);
 }
 
 }  // namespace stoss::engine

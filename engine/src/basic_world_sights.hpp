@@ -359,6 +359,19 @@ template <class S, class Laws>
                                       : rough_seconds(event.at, now_);
 }
 
+/// Where the body is now, off by far less than the size of its cage: what its sight shows, if that
+/// is fine enough, in a frame at rest.
+template <class S, class Laws>
+Vector2 BasicWorld<S, Laws>::rough_place_of(Slot slot) const {
+  const Seen& own = bodies_.sight(slot);
+  if (Laws::kCurved || !has_sights() || !(own.off < 1e-6 * own.reach())) {
+    const Glance here = glance_of(slot);
+    return {here.x + here.x_low, here.y + here.y_low};
+  }
+  const double elapsed = rough_seconds(now_, sights_.epoch.begin) - own.since;
+  return {own.x + own.vx * elapsed, own.y + own.vy * elapsed};
+}
+
 // A pair that `holder` holds has changed; it does not meet before `soonest`, s from now.
 template <class S, class Laws>
 void BasicWorld<S, Laws>::offer(Slot holder, Slot changed, double soonest) {

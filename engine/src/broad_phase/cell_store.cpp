@@ -113,18 +113,11 @@ std::int32_t* CellStore::collect_hanging(std::size_t block,
   return to;
 }
 
-std::int32_t* CellStore::collect_hanging_around(std::int32_t item, std::int32_t* to) const {
-  const std::int32_t own = links_[index(item)].cell / static_cast<std::int32_t>(kBlockCells);
-  const Head& head = heads_[index(own)];
-  const Cell cell = cell_of(item);
-  const Range cells{cell.x - 1, cell.y - 1, cell.x + 1, cell.y + 1};
-  for (std::int64_t by = cells.y0 >> kBlockShift; by <= cells.y1 >> kBlockShift; ++by) {
-    for (std::int64_t bx = cells.x0 >> kBlockShift; bx <= cells.x1 >> kBlockShift; ++bx) {
-      const std::int32_t block = head.beside[beside(bx - head.x, by - head.y)];
-      const std::uint64_t crowded = heads_[index(block)].crowded & bits_of(part_of(cells, bx, by));
-      to = collect_hanging(index(block), crowded, item, to);
-    }
-  }
+std::int32_t* CellStore::collect_hanging_around(
+    std::int32_t item, const Head& head, std::size_t x, std::size_t y, std::int32_t* to) const {
+  for_each_crowded_around(head, x, y, [&](std::size_t block, std::uint64_t cells) {
+    to = collect_hanging(block, cells, item, to);
+  });
   return to;
 }
 

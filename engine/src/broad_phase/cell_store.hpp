@@ -246,8 +246,10 @@ class CellStore {
   }
 
   /// The largest whole number below; of one beyond 2^62, which no item's cell has, some such.
-  static std::int64_t floor_of(double x) {
-    const auto whole = static_cast<std::int64_t>(std::clamp(x, -0x1p62, 0x1p62));
+  static std::int64_t floor_of(double x) { return floor_within(std::clamp(x, -0x1p62, 0x1p62)); }
+  /// The same of one that is not beyond.
+  static std::int64_t floor_within(double x) {
+    const auto whole = static_cast<std::int64_t>(x);
     return whole - (static_cast<double>(whole) > x ? 1 : 0);
   }
 
@@ -365,19 +367,25 @@ class CellStore {
   }
   static constexpr std::uint64_t kEveryRow = 0x0101010101010101U;  // its first cell
 
-  /// Do items hang behind others in the nine cells around one? They are in four blocks at most.
-  bool is_crowded_around(const Head& head, std::size_t x, std::size_t y) const {
+  /// Calls visit(block, cells) for the blocks where the nine cells around one are, with the bits of
+  /// those behind whose seconds items hang. They are in four blocks at most.
+  template <class Visit>
+  void for_each_crowded_around(const Head& head,
+                               std::size_t x,
+                               std::size_t y,
+                               const Visit& visit) const {
     static constexpr auto kColumns = strips_of(kEveryRow, 1);
     static constexpr auto kRows = strips_of(0xff, kSide);
     const Strip& columns = kColumns[x];
     const Strip& rows = kRows[y];
-    const auto crowded = [&](int dx, int dy) {
-      return heads_[index(head.beside[beside(dx, dy)])].crowded;
+    const auto visit_beside = [&](int dx, int dy, std::uint64_t cells) {
+      const std::size_t block = index(head.beside[beside(dx, dy)]);
+      visit(block, heads_[block].crowded & cells);
     };
-    return ((crowded(0, 0) & columns.own & rows.own) |
-            (crowded(columns.beside, 0) & columns.beyond & rows.own) |
-            (crowded(0, rows.beside) & columns.own & rows.beyond) |
-            (crowded(columns.beside, rows.beside) & columns.beyond & rows.beyond)) != 0;
+    visit_beside(0, 0, columns.own & rows.own);
+    visit_beside(columns.beside, 0, columns.beyond & rows.own);
+    visit_beside(0, rows.beside, columns.own & rows.beyond);
+    visit_beside(columns.beside, rows.beside, columns.beyond & rows.beyond);
   }
   // The nine cells around one at its block's edge, which almost half of all are.
   std::int32_t* collect_across(
@@ -393,11 +401,14 @@ class CellStore {
       to = take_three(places(columns[0]), places(columns[1]), places(columns[2]), item, to);
     }
     head.looks += kOneSearch + static_cast<std::uint64_t>(to - start);
-    const bool is_crowded =
-        is_crowded_around(head, static_cast<std::size_t>(x), static_cast<std::size_t>(y));
-    return is_crowded ? collect_hanging_around(item, to) : to;
+    const auto column = static_cast<std::size_t>(x), line = static_cast<std::size_t>(y);
+    std::uint64_t crowded = 0;
+    for_each_crowded_around(
+        head, column, line, [&](std::size_t, std::uint64_t cells) { crowded |= cells; });
+    return crowded == 0 ? to : collect_hanging_around(item, head, column, line, to);
   }
-  std::int32_t* collect_hanging_around(std::int32_t item, std::int32_t* to) const;
+  std::int32_t* collect_hanging_around(
+      std::int32_t item, const Head& head, std::size_t x, std::size_t y, std::int32_t* to) const;
   std::int32_t* collect_hanging(std::size_t block,
                                 std::uint64_t cells,
                                 std::int32_t but_for,

@@ -255,7 +255,7 @@ class DiskCells {
     const double number_x = x * level.inverse;
     const double number_y = y * level.inverse;
     if (!(std::abs(number_x) < kNumberMax && std::abs(number_y) < kNumberMax)) return std::nullopt;
-    return Cell{CellStore::floor_of(number_x), CellStore::floor_of(number_y), level.id};
+    return Cell{CellStore::floor_within(number_x), CellStore::floor_within(number_y), level.id};
   }
   static Cage cage_in(const Level& level, const Cell& cell) {
     return {(static_cast<double>(cell.x) + 0.5) * level.side,
