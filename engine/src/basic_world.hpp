@@ -216,6 +216,7 @@ class BasicWorld final : public WorldCore {
   void renew_box(Slot slot, double margin);
   bool cross(Slot slot);
   void bring_on(Slot slot, const Event<S>& renewal);
+  void bring_stragglers_on();
   Aabb tight_box(Slot slot) const;
   Aabb tight_box(Slot slot, const Glance& here) const;
   double smallest_margin(Slot slot) const;

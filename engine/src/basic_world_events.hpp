@@ -209,10 +209,20 @@ void BasicWorld<S, Laws>::bring_on(Slot slot, const Event<S>& renewal) {
   }
   prefetch_cells_of_second_event();
   if (!foresee_newcomers(slot, renewal)) predict(slot, /*changed=*/true);
-  const Slot straggler = neighbours_.straggler();
-  if (straggler < 0) return;
-  renew_box(straggler, next_margin(straggler));
-  predict(straggler, /*changed=*/true);
+  bring_stragglers_on();
+}
+
+// A few with each crossing, so that what is not over yet costs no search for long, and no event
+// much.
+template <class S, class Laws>
+void BasicWorld<S, Laws>::bring_stragglers_on() {
+  constexpr int kFew = 4;  // measured: with one it takes three times as long, at the same cost
+  for (int i = 0; i < kFew; ++i) {
+    const Slot straggler = neighbours_.straggler();
+    if (straggler < 0) return;
+    renew_box(straggler, next_margin(straggler));
+    predict(straggler, /*changed=*/true);
+  }
 }
 
 /// How far the body flies between two instants, m.

@@ -123,11 +123,11 @@ std::int32_t* CellStore::collect_hanging_around(
 
 std::int32_t CellStore::some_item_of(std::int32_t level) {
   constexpr int kFew = 16;
-  for (int i = 0; i < kFew; ++i) {
-    looked_at_ = (looked_at_ + 1) & (table_.size() - 1);
-    const std::int32_t block = table_[looked_at_];
-    if (block == kNone || heads_[index(block)].level != level) continue;
-    for (const std::int32_t item : blocks_[index(block)].items) {
+  for (int i = 0; i < kFew; ++i, ++looked_at_) {
+    if (looked_at_ >= blocks_.size()) looked_at_ = 0;
+    const Head& head = heads_[looked_at_];
+    if (head.level != level || head.items == 0) continue;
+    for (const std::int32_t item : blocks_[looked_at_].items) {
       if (item != kNone) return item;
     }
   }

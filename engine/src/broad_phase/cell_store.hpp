@@ -222,7 +222,7 @@ class CellStore {
   bool forget_notes(const Range& cells, std::int32_t level);
 
   /// Some item of a level, -1 where the next few blocks hold none; each call goes on where the last
-  /// has stopped.
+  /// has stopped, so that one block after the other is emptied by who takes out what it is given.
   std::int32_t some_item_of(std::int32_t level);
 
   /// How often collect_around() was called for items of a level, and how many it has written, as
@@ -479,7 +479,7 @@ class CellStore {
   std::size_t items_ = 0;
   std::size_t items_to_be_ = 0;  // as many have been announced
   std::int32_t items_max_ = 0;   // that a block has ever held
-  std::size_t looked_at_ = 0;    // of the table, by some_item_of()
+  std::size_t looked_at_ = 0;    // the block, by some_item_of()
   int table_shift_ = 58;         // of a hash, for a place in the table
 };
 
