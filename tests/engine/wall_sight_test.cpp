@@ -55,7 +55,8 @@ double soonest_contact(const Pair& pair, const Instant& now, const Epoch<double>
       .soonest_contact();
 }
 
-Pair random_pair(Random& random, const Instant& begin, double scale) {
+/// A wall `length` times as long as the disk's surroundings are wide, or less.
+Pair random_pair(Random& random, const Instant& begin, double scale, double length) {
   const double place = random.one_in(4) ? scale * random.decades(0, 6) : 0;
   const auto within = [&](double most) { return random.uniform(-most, most); };
   Pair pair;
@@ -65,9 +66,8 @@ Pair random_pair(Random& random, const Instant& begin, double scale) {
   pair.disk.position = words(place + within(3 * scale), -place + within(3 * scale));
   pair.wall.since = begin;
   if (random.one_in(2)) pair.wall.velocity = words(within(1), within(1));
-  const double length = scale * random.decades(-2, 3);
   const double from = random.uniform(0, 1);
-  const double x = within(length), y = within(length);
+  const double x = within(scale * length), y = within(scale * length);
   pair.wall.position =
       words(place + within(3 * scale) - from * x, -place + within(3 * scale) - from * y);
   pair.edge = words(x, y);
@@ -83,7 +83,7 @@ TEST(WallSight, BoundsEveryContactFromBelowAndClosely) {
   for (int i = 0; i < 200'000; ++i) {
     const double scale = random.decades(-3, 3);
     const Instant begin{static_cast<std::int64_t>(random.below(1000)) - 500, 0};
-    const Pair pair = random_pair(random, begin, scale);
+    const Pair pair = random_pair(random, begin, scale, random.decades(-2, 3));
     const Instant now = *later_by(begin, 5 * scale, 0.0);
     const double soonest = soonest_contact(pair, now, {begin, 8 * scale});
     const double exact = exact_contact(pair, now);
@@ -100,6 +100,37 @@ TEST(WallSight, BoundsEveryContactFromBelowAndClosely) {
   EXPECT_GT(passes, 5'000);
   EXPECT_LT(loose, contacts / 1000);  // those that all but graze
   EXPECT_LT(in_vain, passes / 1000);
+}
+
+/// m, from the disk to the wall; below zero where they overlap.
+double gap_between(const Pair& pair, const Instant& now) {
+  const DoubleWord2<double> p = position_at(pair.disk, now) - position_at(pair.wall, now);
+  const DoubleWord<double> length2 = square_norm(pair.edge);
+  const double share = dot(p, pair.edge).hi / length2.hi;
+  if (!(share > 0)) return std::hypot(p.x.hi, p.y.hi) - pair.radius;
+  const DoubleWord2<double> from_end = p - pair.edge;
+  if (!(share < 1)) return std::hypot(from_end.x.hi, from_end.y.hi) - pair.radius;
+  return std::abs(cross(pair.edge, p).hi) / std::sqrt(length2.hi) - pair.radius;
+}
+
+// There the end of a wall is off by its rounding, and so is which side of it a disk is on that
+// overlaps it, which none does.
+TEST(WallSight, BoundsContactsWithLongWalls) {
+  Random random(test::seed_of_run());
+  int contacts = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    Pair pair = random_pair(random, {}, 1, random.decades(3, 12));
+    if (random.one_in(2)) {  // one end is near
+      pair.wall.position =
+          words(random.uniform(-3, 3) - pair.edge.x.hi, random.uniform(-3, 3) - pair.edge.y.hi);
+    }
+    const Instant now{5, 0};
+    if (gap_between(pair, now) < 1e-6) continue;
+    const double exact = exact_contact(pair, now);
+    ASSERT_LE(soonest_contact(pair, now, {{}, 8}), exact) << "case " << i;
+    contacts += exact < kNever ? 1 : 0;
+  }
+  EXPECT_GT(contacts, 5'000);
 }
 
 /// A disk of radius 1 that meets a wall from (0, 0) to (4, 0) at none of its ends.
@@ -150,7 +181,7 @@ TEST(WallSight, MissesNothingThatIsVeryLargeOrSmall) {
   Random random(test::seed_of_run());
   for (int i = 0; i < 20'000; ++i) {
     const double scale = random.one_in(2) ? random.decades(60, 180) : random.decades(-180, -60);
-    Pair pair = random_pair(random, {}, 1);
+    Pair pair = random_pair(random, {}, 1, random.decades(-2, 3));
     for (DoubleWord2<double>* some : {&pair.disk.position, &pair.wall.position, &pair.edge}) {
       *some = words(some->x.hi * scale, some->y.hi * scale);
     }
